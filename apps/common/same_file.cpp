@@ -1,6 +1,8 @@
 #include "same_file.h"
 
 #include <pent/error.h>
+#include <pent/output_folder.h>
+#include <pent/run_files.h>
 
 #include <algorithm>
 #include <system_error>
@@ -58,9 +60,8 @@ bool is_same_file(const fs::path& a, const fs::path& b) {
 
 std::vector<NamedFile> parts_of_run(const fs::path& run, const std::string& what) {
     std::vector<NamedFile> parts;
-    for (const char* part :
-         {"scene.toml", "report.json", "obstacles.json", "balance.csv", "journal.txt",
-          "written.txt", "meshes", "frames", "obstacles", "contacts", "checkpoint"}) {
+    parts.push_back({what, run / kFolderList, true});
+    for (const char* part : kPartsOfRun) {
         parts.push_back({what, run / part, true});
     }
     return parts;

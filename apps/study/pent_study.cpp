@@ -20,10 +20,12 @@ namespace {
 namespace fs = std::filesystem;
 using pent::apps::Program;
 using pent::apps::Verdict;
+using pent::simulator::word_of;
 using pent::study::Result;
 using pent::study::StudyReport;
 using pent::study::StudyState;
 using pent::study::UnitState;
+using pent::study::UnitVerdict;
 
 struct Arguments {
     pent::study::StudyOptions study;
@@ -55,12 +57,12 @@ void say_reference(const Program& program, const StudyReport& report) {
 void say_results(const Program& program, const StudyReport& report) {
     for (const Result& result : report.results) {
         std::string line = "run        " + settings_text(result.settings) + ": ";
-        if (result.verdict == "finished") {
+        if (result.verdict == UnitVerdict::Finished) {
             line += number(result.cost.seconds_per_frame) + " s per frame, "
                     + number(1e-6 * result.cost.peak_bytes) + " MB, error "
                     + number(100 * result.errors.position) + "%";
         } else {
-            line += result.verdict + ": " + result.message;
+            line += std::string(word_of(result.verdict)) + ": " + result.message;
         }
         program.say(line);
     }
@@ -226,15 +228,15 @@ Verdict run_one(Program& program, const Arguments& arguments) {
     watch.reset();
     const std::string unit = "unit " + std::to_string(arguments.run);
     program.report()["run"] = arguments.run;
-    program.report()["outcome"] = outcome.verdict;
-    if (outcome.verdict == "stopped") {
+    program.report()["outcome"] = word_of(outcome.verdict);
+    if (outcome.verdict == UnitVerdict::Stopped) {
         return stopped(program);
     }
     if (outcome.has_failed) {
         throw pent::Error(unit + " was refused: " + outcome.message);
     }
     // That settings diverge is what a study is to find out.
-    program.say(unit + ": " + outcome.verdict
+    program.say(unit + ": " + std::string(word_of(outcome.verdict))
                 + (outcome.message.empty() ? "" : ": " + outcome.message));
     return Verdict::Finished;
 }

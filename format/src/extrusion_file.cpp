@@ -6,6 +6,7 @@
 #include <pent/error.h>
 #include <pent/formatted.h>
 #include <pent/machine_memory.h>
+#include <pent/with_dimension.h>
 
 #include <algorithm>
 #include <array>
@@ -238,8 +239,10 @@ bool is_extrusion(const Header& header) {
 FileInfo info_of_extrusion(const Header& header,
                            std::string_view file,
                            const std::filesystem::path& path) {
-    return header.info.dimension == 2 ? info_of<3>(header, parse_extrusion<3>(header, file, path))
-                                      : info_of<4>(header, parse_extrusion<4>(header, file, path));
+    return with_dimension(header.info.dimension + 1, [&](auto constant) {
+        constexpr int kDim = decltype(constant)::value;
+        return info_of<kDim>(header, parse_extrusion<kDim>(header, file, path));
+    });
 }
 
 template <int Dim>

@@ -6,6 +6,7 @@
 #include <pent/cell_parents.h>
 #include <pent/error.h>
 #include <pent/pent_file.h>
+#include <pent/validate_extras.h>
 
 #include <algorithm>
 #include <set>
@@ -166,13 +167,20 @@ bool has_parents(const std::filesystem::path& path) {
 }
 
 template <int Dim>
+void validate_extras(const SimplexMesh<Dim>& mesh,
+                     const MeshExtras<Dim>& extras,
+                     std::string_view name) {
+    check_extras(mesh, extras, name);
+    check_names(extras, name);
+}
+
+template <int Dim>
 std::uint32_t write_mesh(const std::filesystem::path& path,
                          const SimplexMesh<Dim>& mesh,
                          const WriteOptions& options,
                          const MeshExtras<Dim>& extras) {
     validate(mesh, path.string());
-    check_extras(mesh, extras, path);
-    check_names(extras, path);
+    validate_extras(mesh, extras, path.string());
     const std::vector<Column> vertices = vertex_columns(mesh, extras);
     const std::vector<Column> cells = cell_columns(mesh, extras);
     const auto vertex_count = static_cast<std::uint64_t>(mesh.vertex_count());
@@ -229,6 +237,8 @@ MeshFile<Dim> read_mesh(const std::filesystem::path& path) {
 }
 
 #define PENT_INSTANTIATE(Dim)                                                                     \
+    template void validate_extras<Dim>(const SimplexMesh<Dim>&, const MeshExtras<Dim>&,           \
+                                       std::string_view);                                         \
     template std::uint32_t write_mesh<Dim>(const std::filesystem::path&, const SimplexMesh<Dim>&, \
                                            const WriteOptions&, const MeshExtras<Dim>&);          \
     template MeshFile<Dim> read_mesh<Dim>(const std::filesystem::path&);

@@ -50,7 +50,7 @@ bool read_numbers(const Json& list, Eigen::Ref<Eigen::VectorXd> values) {
     }
     for (Eigen::Index i = 0; i < values.size(); ++i) {
         const Json& entry = list[static_cast<std::size_t>(i)];
-        if (!entry.is_number() || !std::isfinite(entry.get<double>())) {
+        if (!entry.is_number()) {  // finite: none beyond a double's range is JSON here
             return false;
         }
         values[i] = entry.get<double>();
@@ -68,8 +68,7 @@ struct FieldReader {
     }
     void operator()(const char* key, double& value, ShapeField kind) const {
         const auto found = json.find(key);
-        const bool is_number =
-            found != json.end() && found->is_number() && std::isfinite(found->get<double>());
+        const bool is_number = found != json.end() && found->is_number();
         const bool is_length = kind == ShapeField::Length;
         if (!is_number || (is_length && !(found->get<double>() > 0))) {
             fail(key, is_length ? "a number above 0" : "a finite number");

@@ -19,8 +19,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* kList = "written.txt";
-
 struct List {
     std::string kind;
     std::set<std::string> names;
@@ -45,7 +43,7 @@ bool is_folder_name(const std::string& name) {
 }
 
 std::optional<List> read_list(const fs::path& folder) {
-    const fs::path path = folder / kList;
+    const fs::path path = folder / kFolderList;
     std::error_code ignored;
     if (!fs::is_regular_file(path, ignored)) {
         return std::nullopt;
@@ -89,7 +87,7 @@ std::string finished_name(const fs::path& temporary) {
 bool has_nothing(const fs::path& folder) {
     std::error_code error;
     for (const auto& entry : fs::directory_iterator(folder, error)) {
-        if (finished_name(entry.path()) != kList) {
+        if (finished_name(entry.path()) != kFolderList) {
             return false;
         }
     }
@@ -122,7 +120,7 @@ void remove_folder(const fs::path& folder) {
     std::error_code ignored;
     const auto count = std::distance(fs::directory_iterator(folder), fs::directory_iterator());
     if (count == 1) {
-        fs::remove(folder / kList, ignored);
+        fs::remove(folder / kFolderList, ignored);
         fs::remove(folder, ignored);
     }
 }
@@ -223,13 +221,13 @@ void OutputFolder::write_list() const {
     for (const std::string& name : names_) {
         text += name + "\n";
     }
-    write_text(path_ / kList, text);
+    write_text(path_ / kFolderList, text);
 }
 
 void OutputFolder::refuse_foreign() const {
     if (is_foreign_) {
         throw Error(path_.string() + ": has files in it that no " + kind_
-                    + " of ours wrote (it has no " + kList
+                    + " of ours wrote (it has no " + kFolderList
                     + "), and stays as it is; use another folder, or an empty one");
     }
 }
@@ -257,12 +255,12 @@ void OutputFolder::adopt(const std::string& name) {
         return;
     }
     if (is_shared_) {
-        throw Error((path_ / kList).string() + ": does not list " + name
+        throw Error((path_ / kFolderList).string() + ": does not list " + name
                     + ", which other programs that write to this folder must know of");
     }
     names_.insert(name);
     if (has_list_) {
-        append_text(path_ / kList, name + "\n");
+        append_text(path_ / kFolderList, name + "\n");
     } else {
         write_list();
         has_list_ = true;
@@ -311,7 +309,8 @@ void OutputFolder::remove_temporaries() {
         std::vector<fs::path> left;
         for (const auto& entry : fs::directory_iterator(path_ / folder, ignored)) {
             const std::string name = finished_name(entry.path());
-            if (!name.empty() && (names_.count((folder / name).string()) != 0 || name == kList)) {
+            if (!name.empty()
+                && (names_.count((folder / name).string()) != 0 || name == kFolderList)) {
                 left.push_back(entry.path());
             }
         }

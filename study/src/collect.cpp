@@ -61,13 +61,14 @@ void collect_reference(StudyFolder& study, StudyReport& report, std::vector<Mach
 }
 
 Result collect_unit(StudyFolder& study, const Unit& unit, std::vector<Machine>& machines) {
-    Result result{.settings = unit.settings, .verdict = "refused", .message = unit.refusal};
+    Result result{
+        .settings = unit.settings, .verdict = UnitVerdict::Refused, .message = unit.refusal};
     if (!unit.refusal.empty()) {
         return result;
     }
     UnitFiles files = study.open(unit);
     const Record& record = files.record;
-    if (record.verdict == "finished" && !study.is_measured(record)) {
+    if (record.verdict == UnitVerdict::Finished && !study.is_measured(record)) {
         study.measure(files);
     }
     machines.insert(machines.end(), record.machines.begin(), record.machines.end());

@@ -57,7 +57,7 @@ std::vector<std::size_t> frontier_of(const std::vector<Result>& results, double 
     });
     std::vector<std::size_t> frontier;
     for (const std::size_t i : order) {
-        if (results[i].verdict == "finished"
+        if (results[i].verdict == UnitVerdict::Finished
             && (frontier.empty() || error(i) < (1 - kMinGain) * error(frontier.back()))) {
             frontier.push_back(i);
         }

@@ -112,7 +112,8 @@ double error_of(const StudyReport& report, const Result& result) {
 
 std::vector<Result> finished(const StudyReport& report) {
     std::vector<Result> results = report.results;
-    std::erase_if(results, [](const Result& result) { return result.verdict != "finished"; });
+    std::erase_if(results,
+                  [](const Result& result) { return result.verdict != UnitVerdict::Finished; });
     return results;
 }
 

@@ -18,6 +18,7 @@ namespace pent::study {
 namespace {
 
 using Json = nlohmann::ordered_json;
+using simulator::word_of;
 
 // Paths may have bytes that are not UTF-8.
 std::string text_of(const Json& json) {
@@ -89,6 +90,14 @@ std::vector<Machine> machines_from(const Json& json) {
     return machines;
 }
 
+UnitVerdict verdict_from(const Json& json) {
+    const auto verdict = simulator::value_of<UnitVerdict>(json.get_ref<const std::string&>());
+    if (!verdict) {
+        throw Error("unknown verdict " + json.dump());
+    }
+    return *verdict;
+}
+
 Json to_json(const ReferenceReport& reference) {
     return {{"dt", reference.dt},
             {"difference", reference.difference},
@@ -129,7 +138,7 @@ std::string fingerprint(const std::filesystem::path& program) {
 
 void write_record(const std::filesystem::path& path, const Record& record) {
     const Json json = {
-        {"verdict", record.verdict},           {"message", record.message},
+        {"verdict", word_of(record.verdict)},  {"message", record.message},
         {"wall_seconds", record.wall_seconds}, {"cpu_seconds", record.cpu_seconds},
         {"peak_bytes", record.peak_bytes},     {"machines", to_json(record.machines)},
         {"errors", to_json(record.errors)},    {"meshes", record.meshes},
@@ -146,7 +155,7 @@ std::optional<Record> read_record(const std::filesystem::path& path) {
         std::ifstream file(path);
         const Json json = Json::parse(file);
         Record record;
-        json.at("verdict").get_to(record.verdict);
+        record.verdict = verdict_from(json.at("verdict"));
         json.at("message").get_to(record.message);
         json.at("wall_seconds").get_to(record.wall_seconds);
         json.at("cpu_seconds").get_to(record.cpu_seconds);
@@ -158,7 +167,7 @@ std::optional<Record> read_record(const std::filesystem::path& path) {
         json.at("reference").get_to(record.reference);
         record.errors = errors_from(json.at("errors"));
         return record;
-    } catch (const nlohmann::json::exception& error) {
+    } catch (const std::exception& error) {
         throw Error(path.string() + ": not the record of a run (" + error.what()
                     + "); remove it, and the run is taken again");
     }
@@ -176,7 +185,7 @@ std::string study_json(const StudyReport& report, const std::string& created_by)
     json["results"] = Json::array();
     for (const Result& result : report.results) {
         json["results"].push_back({{"settings", to_json(result.settings)},
-                                   {"verdict", result.verdict},
+                                   {"verdict", word_of(result.verdict)},
                                    {"message", result.message},
                                    {"cost", to_json(result.cost)},
                                    {"errors", to_json(result.errors)}});
@@ -208,10 +217,11 @@ std::string study_csv(const StudyReport& report) {
             twist = std::max(twist, plane);
         }
         const bool is_on_frontier = std::ranges::find(report.frontier, i) != report.frontier.end();
-        csv << result.verdict << ',' << result.cost.wall_seconds << ',' << result.cost.cpu_seconds
-            << ',' << result.cost.peak_bytes << ',' << result.cost.seconds_per_frame << ','
-            << errors.position << ',' << errors.position_m << ',' << errors.center << ','
-            << errors.energy << ',' << errors.contact_work << ',' << errors.energy_drift << ','
+        csv << word_of(result.verdict) << ',' << result.cost.wall_seconds << ','
+            << result.cost.cpu_seconds << ',' << result.cost.peak_bytes << ','
+            << result.cost.seconds_per_frame << ',' << errors.position << ',' << errors.position_m
+            << ',' << errors.center << ',' << errors.energy << ',' << errors.contact_work << ','
+            << errors.energy_drift << ','
             << (errors.angular_momentum_scale > 0 ? twist / errors.angular_momentum_scale : twist)
             << ',' << errors.smallest_J << ',' << errors.deepest_penetration << ','
             << errors.iterations << ',' << errors.newton_iterations << ',' << errors.refused << ','

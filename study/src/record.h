@@ -18,7 +18,7 @@ struct Record {
                                  ///< and the checksum of its meshes; empty before.
     std::uint32_t meshes = 0;    ///< Checksum of the checksums of the mesh files.
     int threads = 0;             ///< Of each run.
-    std::string verdict = {};    ///< Empty while no run of it has ended.
+    UnitVerdict verdict = UnitVerdict::None;  ///< While no run of it has ended.
     std::string message = {};
     std::vector<double> wall_seconds = {};  ///< One a repetition.
     std::vector<double> cpu_seconds = {};

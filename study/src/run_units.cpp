@@ -7,6 +7,7 @@
 
 #include <pent/error.h>
 #include <pent/file_lock.h>
+#include <pent/run_files.h>
 
 #include <algorithm>
 #include <utility>
@@ -82,7 +83,7 @@ UnitOutcome UnitRunner::run(const std::vector<std::size_t>& units) {
     for (const std::size_t i : units) {
         const Unit& unit = all[i];
         if (!unit.refusal.empty()) {
-            outcome = {.verdict = "refused", .message = unit.refusal};
+            outcome = {.verdict = UnitVerdict::Refused, .message = unit.refusal};
         } else {
             // A simulation that outlives us, as when we are killed, keeps the lock.
             const FileLock lock(study_.path_of(unit, ".toml"),
@@ -93,7 +94,7 @@ UnitOutcome UnitRunner::run(const std::vector<std::size_t>& units) {
             unit.kind == UnitKind::Reference ? run_level(files) : run_combination(files);
             outcome = {.verdict = files.record.verdict,
                        .message = files.record.message,
-                       .has_failed = files.record.verdict == "refused"};
+                       .has_failed = files.record.verdict == UnitVerdict::Refused};
         }
         runs_done_ += runs_of(unit);
     }
@@ -125,7 +126,7 @@ void UnitRunner::run_level(UnitFiles& files) {
     }
     tell(0, "reference, " + step);
     require_meshes(files);
-    const fs::path report = study_.path_of(files.unit) / "report.json";
+    const fs::path report = study_.path_of(files.unit) / kReportFile;
     const bool goes_on = files.is_begun && fs::exists(report);
     const double earlier = goes_on ? runs::read_report(report).seconds : 0;
     if (!goes_on) {
@@ -139,20 +140,20 @@ void UnitRunner::run_level(UnitFiles& files) {
         throw Error("the reference (" + study_.plan().reference_integrator + ", " + step
                     + ") does not run to its end: " + outcome.error);
     }
-    files.record.verdict = "finished";
+    files.record.verdict = UnitVerdict::Finished;
     add_times(files.record, outcome, earlier);
     study_.write(files);
 }
 
 void UnitRunner::run_combination(UnitFiles& files) {
     Record& record = files.record;
-    if (record.verdict == "refused") {  // by what may have been mended since, as a full disk
-        record = fresh(record);
+    if (record.verdict == UnitVerdict::Refused) {
+        record = fresh(record);  // what refused it may have been mended since, as a full disk
     }
     while (!study_.is_done(files)) {
         run_once(files);
     }
-    if (record.verdict == "finished" && !study_.is_measured(record)
+    if (record.verdict == UnitVerdict::Finished && !study_.is_measured(record)
         && study_.reference() != nullptr) {
         study_.measure(files);
     }
@@ -165,9 +166,9 @@ void UnitRunner::run_once(UnitFiles& files) {
     require_meshes(files);
     const ChildOutcome outcome = simulate(files, false);
     add_times(record, outcome);
-    record.verdict = outcome.exit_code == 0   ? "finished"
-                     : outcome.exit_code == 3 ? "diverged"
-                                              : "refused";
+    record.verdict = outcome.exit_code == 0   ? UnitVerdict::Finished
+                     : outcome.exit_code == 3 ? UnitVerdict::Diverged
+                                              : UnitVerdict::Refused;
     record.message = outcome.exit_code < 0 ? "ended by a signal" : outcome.error;
     study_.write(files);
     // Frames that nothing is to be compared with are in the way of the next run.

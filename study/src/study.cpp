@@ -81,7 +81,7 @@ UnitOutcome run_unit(const fs::path& path,
     try {
         return UnitRunner(study, programs, callbacks).run({static_cast<std::size_t>(number) - 1});
     } catch (const Stopped&) {
-        return {.verdict = "stopped"};
+        return {.verdict = UnitVerdict::Stopped};
     }
 }
 

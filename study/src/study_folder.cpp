@@ -43,8 +43,8 @@ bool StudyFolder::is_done(const Unit& unit) const {
 
 bool StudyFolder::is_done(const UnitFiles& files) const {
     const Record& record = files.record;
-    if (record.verdict != "finished") {
-        return !record.verdict.empty();
+    if (record.verdict != UnitVerdict::Finished) {
+        return record.verdict != UnitVerdict::None;
     }
     const auto has_frames = [&] {
         return verdict_of(path_of(files.unit)) == runs::RunVerdict::Finished;

@@ -2,6 +2,7 @@
 
 #include <pent/error.h>
 #include <pent/pent_file.h>
+#include <pent/run_files.h>
 #include <pent/simulator/placed_mesh.h>
 #include <pent/with_dimension.h>
 
@@ -12,8 +13,6 @@
 namespace pent::study {
 
 namespace {
-
-constexpr const char* kReportFile = "report.json";
 
 StepRecord record_of(const simulator::StepReport& report) {
     const simulator::ContactSummary& contact = report.contact;
@@ -77,7 +76,7 @@ template <int Dim>
 void Trajectory::read_meshes(const simulator::Scene& scene) {
     std::vector<SimplexMesh<Dim>> meshes;
     for (const std::string& body : bodies_) {
-        meshes.push_back(read_mesh<Dim>(folder_ / "meshes" / (body + ".pent")).mesh);
+        meshes.push_back(read_mesh<Dim>(folder_ / mesh_file(body)).mesh);
         first_vertex_.push_back(first_vertex_.back() + meshes.back().vertex_count());
         first_cell_.push_back(first_cell_.back() + meshes.back().cell_count());
     }
@@ -109,8 +108,7 @@ void Trajectory::read_meshes(const simulator::Scene& scene) {
 template <int Dim>
 void Trajectory::read_moment(int frame, Moment& moment) const {
     for (std::size_t body = 0; body < bodies_.size(); ++body) {
-        const std::filesystem::path path =
-            folder_ / "frames" / frame_file_name(bodies_[body], frame);
+        const std::filesystem::path path = folder_ / frame_file(bodies_[body], frame);
         const Frame<Dim> file = read_frame<Dim>(path);
         const Eigen::Index first = first_vertex_[body];
         const Eigen::Index count = first_vertex_[body + 1] - first;

@@ -3,6 +3,7 @@
 #include "support/temp_folder.h"
 
 #include <pent/extrusion.h>
+#include <pent/formatted.h>
 #include <pent/machine_memory.h>
 
 #include <gtest/gtest.h>
@@ -251,8 +252,13 @@ TEST(ExtrusionFile, IsRefusedWhereItWouldMakeMoreThanThereIsMemoryOrNumbers) {
     const double too_many = std::ceil(1.1 * static_cast<double>(machine_memory()) / kBytesOfALayer);
     const double most_numbers = 4294967295.0 / (384000 * 4);
     if (too_many < most_numbers) {  // of a machine with less than 86 GB
-        expect_contains(message(too_many), {"a.pent: its base and", "layers make", "pentachora",
-                                            "GB; this machine has", "take fewer layers"});
+        // 41^3 vertices a layer of four doubles and two indices; cells of five indices.
+        const double bytes = 41 * 41 * 41 * too_many * 40 + kBytesOfALayer * (too_many - 1);
+        expect_contains(message(too_many),
+                        {"a.pent: its base and", "layers make",
+                         formatted(" pentachora, which take %.3g GB; this machine has %.3g: take"
+                                   " fewer layers",
+                                   bytes / 1e9, static_cast<double>(machine_memory()) / 1e9)});
     }
     expect_contains(message(std::ceil(most_numbers) + 1),
                     {"a.pent: its base and 2798 layers make 192840958 vertices and 4296192000"

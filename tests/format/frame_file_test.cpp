@@ -3,6 +3,7 @@
 #include "support/temp_folder.h"
 
 #include <pent/pent_file.h>
+#include <pent/printable.h>
 
 #include <gtest/gtest.h>
 
@@ -10,6 +11,8 @@
 #include <fstream>
 #include <limits>
 #include <sstream>
+#include <string>
+#include <vector>
 
 namespace pent {
 namespace {
@@ -95,10 +98,12 @@ TEST(FrameFile, VelocitiesAndContactForcesMayBeLeftOut) {
 TEST(FrameFile, RefusesVectorsThatAreNotOneAVertex) {
     const test::TempFolder folder;
     Frame<4> frame = sample();
-    frame.contact_forces.resize(4, 3);
-    frame.contact_forces.setZero();
+    frame.contact_forces.setZero(4, 3);
     expect_contains(error_of([&] { write_frame(folder / "f.pent", frame); }),
                     {"f.pent", "3 contact forces", "none or 9"});
+    frame.velocities.setZero(4, 10);
+    expect_contains(error_of([&] { write_frame(folder / "f.pent", frame); }),
+                    {"f.pent", "10 velocities", "none or 9"});
 }
 
 TEST(FrameFile, FindsAFieldByItsName) {
@@ -125,11 +130,15 @@ TEST(FrameFile, RefusesNamesThatRepeatOrHaveAMeaning) {
     for (const auto& [name, what] : std::vector<std::pair<std::string, std::string>>{
              {"reaction_x", "another quantity has the property reaction_x"},
              {"vx", "the property vx has a meaning of its own"},
-             {"energy density", "expected a name of letters"}}) {
+             {"energy density", "expected a name of letters"},
+             {"energy\x01"
+              "density",
+              "expected a name of letters"},
+             {std::string(100000, 'a'), "expected a name of letters"}}) {
         Frame<4> frame = sample();
         frame.fields.push_back({name, Eigen::MatrixXd::Zero(1, 9)});
         expect_contains(error_of([&] { write_frame(folder / "f.pent", frame); }),
-                        {"f.pent: vertex quantity '" + name + "': " + what});
+                        {"f.pent: vertex quantity '" + printable(name) + "': " + what});
     }
     Frame<4> frame = sample();
     frame.fields.push_back({"column", Eigen::MatrixXd::Zero(1, 9)});
@@ -143,7 +152,30 @@ TEST(FrameFile, IsNeverWrittenWithANumberThatIsNotFinite) {
     frame.velocities(2, 3) = std::numeric_limits<double>::quiet_NaN();
     expect_contains(error_of([&] { write_frame(folder / "f.pent", frame); }),
                     {"f.pent", "vertex 3", "vz"});
+    frame = sample();
+    frame.contact_forces(3, 8) = std::numeric_limits<double>::infinity();
+    expect_contains(error_of([&] { write_frame(folder / "f.pent", frame); }),
+                    {"f.pent", "vertex 8", "fw"});
     EXPECT_TRUE(std::filesystem::is_empty(folder.path()));
+}
+
+TEST(FrameFile, IsNeverReadWithANumberThatIsNotFinite) {
+    const test::TempFolder folder;
+    const std::string header =
+        "ply\nformat ascii 1.0\ncomment pent 1.0\ncomment dimension 2\n"
+        "comment mesh m.pent 00000000\nelement vertex 2\nproperty double x\nproperty double y\n"
+        "property double vx\nproperty double vy\nproperty double fx\nproperty double fy\n"
+        "property double heat\nend_header\n0 0 0 0 0 0 0\n";
+    const std::vector<std::string> names = {"x", "y", "vx", "vy", "fx", "fy", "heat"};
+    for (std::size_t bad = 0; bad < names.size(); ++bad) {
+        std::string row;
+        for (std::size_t i = 0; i < names.size(); ++i) {
+            row += i == bad ? "inf " : "1 ";
+        }
+        std::ofstream(folder / "f.pent") << header << row << "\n";
+        expect_contains(error_of([&] { (void)read_frame<2>(folder / "f.pent"); }),
+                        {"f.pent: vertex 1: " + names[bad] + " is ", "finite"});
+    }
 }
 
 TEST(FrameFile, IsNotTakenForAMeshNorAMeshForAFrame) {

@@ -4,6 +4,7 @@
 #include "support/thread_writers.h"
 
 #include <pent/extrusion.h>
+#include <pent/facets.h>
 #include <pent/mesh_part.h>
 #include <pent/validate_parts.h>
 
@@ -94,9 +95,13 @@ TEST(MeshSource, HasTheVerticesAndAnyCellsOfTheWholeMesh) {
                                       {.encoding = Encoding::Ascii}));
     static_cast<void>(
         write_mesh(folder / "text.pent", rich_box(), {.encoding = Encoding::Ascii}, extras));
-    static_cast<void>(write_mesh(folder / "long.pent",
-                                 test::kuhn_box<4>({5, 4, 3, 2}, {1, 1, 1, 1}),
-                                 {.encoding = Encoding::Ascii}));  // more lines than one piece
+    // More lines than one piece, of vertices, cells and what is behind them.
+    const SimplexMesh<4> fine = test::kuhn_box<4>({11, 5, 4, 2}, {1, 1, 1, 1});
+    MeshExtras<4> labels;
+    labels.boundary = match_facets<4>(fine.cells, fine.vertex_count()).boundary;
+    labels.labels.resize(static_cast<std::size_t>(labels.boundary.cols()), 5);
+    static_cast<void>(
+        write_mesh(folder / "long.pent", fine, {.encoding = Encoding::Ascii}, labels));
     for (const char* name :
          {"rich.pent", "plain.pent", "prisms.pent", "cones.pent", "text.pent", "long.pent"}) {
         const SimplexMesh<4> whole = read_mesh<4>(folder / name).mesh;
@@ -156,7 +161,12 @@ TEST(MeshSource, ExtrudesTheCellsOverSomeVerticesOfTheBase) {
 // More writers than some have rows, too.
 TEST(MeshSlabs, AreTheFileThatOneWriterMakes) {
     const test::TempFolder folder;
-    for (const SimplexMesh<4>& mesh : {rich_box(), test::kuhn_box<4>({1, 1, 1, 1}, {1, 1, 1, 1})}) {
+    SimplexMesh<4> children = test::kuhn_box<4>({2, 1, 1, 1}, {1, 1, 1, 1});
+    for (Eigen::Index cell = 0; cell < children.cell_count(); ++cell) {
+        children.parents.push_back(static_cast<std::uint32_t>(cell / 16));
+    }
+    for (const SimplexMesh<4>& mesh :
+         {rich_box(), test::kuhn_box<4>({1, 1, 1, 1}, {1, 1, 1, 1}), children}) {
         for (const Encoding encoding : {Encoding::Binary, Encoding::Ascii}) {
             const std::uint32_t crc =
                 write_mesh(folder / "one.pent", mesh, {.encoding = encoding, .created_by = "t"});
@@ -219,7 +229,11 @@ TEST(MeshSource, SaysWhatIsWrongWithAFile) {
     EXPECT_EQ(error_of([&] { MeshSource<4>(folder / "frame.pent", 2); }),
               error_of([&] { static_cast<void>(read_mesh<4>(folder / "frame.pent")); }));
     // Text, in the words of whoever reads all of it.
-    static_cast<void>(write_mesh(folder / "text.pent", rich_box(), {.encoding = Encoding::Ascii}));
+    const SimplexMesh<4> box = rich_box();
+    MeshExtras<4> extras;
+    extras.boundary = match_facets<4>(box.cells, box.vertex_count()).boundary;
+    extras.labels.resize(static_cast<std::size_t>(extras.boundary.cols()), 5);
+    static_cast<void>(write_mesh(folder / "text.pent", box, {.encoding = Encoding::Ascii}));
     const std::string text = bytes_of(folder / "text.pent");
     const std::size_t body = text.find("end_header\n") + 11;
     const auto line = [&](int number) {
@@ -247,6 +261,21 @@ TEST(MeshSource, SaysWhatIsWrongWithAFile) {
     says_the_same(text + "7");
     says_the_same(text.substr(0, text.size() - 3));
     says_the_same(text.substr(0, line(36 + 94)));
+    static_cast<void>(write_mesh(folder / "text.pent", box, {.encoding = Encoding::Ascii}, extras));
+    const std::string more = bytes_of(folder / "text.pent");
+    const auto count = static_cast<int>(extras.labels.size());
+    for (const int lines : {1, 2, 7}) {  // behind the last cell, of the boundary
+        std::size_t end = more.size();
+        for (int i = 0; i < lines; ++i) {
+            end = more.rfind('\n', end - 2) + 1;
+        }
+        std::ofstream(folder / "text.pent", std::ios::binary) << more.substr(0, end);
+        const std::string words =
+            "text.pent: boundary " + std::to_string(count - lines) + ": the file ends ";
+        expect_contains(error_of([&] { (void)read_mesh<4>(folder / "text.pent"); }), {words});
+        expect_contains(error_of([&] { MeshSource<4>(folder / "text.pent", 2); }), {words});
+    }
+    says_the_same(more + "7");
     std::string changed = text;
     changed[line(36 + 50) + 1] = 'x';
     says_the_same(changed);

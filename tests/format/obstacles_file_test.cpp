@@ -125,6 +125,8 @@ TEST(ObstaclesFile, IsRefusedWhereItIsSomethingElse) {
     for (const std::string text :
          {"", "{", "[]", "null", "{}", R"({"pent_obstacles": 1})", "\xff\xfe",
           R"({"pent_obstacles": 2, "dimension": 4, "obstacles": []})",
+          R"({"pent_obstacles": "1", "dimension": 4, "obstacles": []})",
+          R"({"dimension": 4, "obstacles": []})",
           R"({"pent_obstacles": 1, "dimension": 4, "obstacles": {}})"}) {
         expect_contains(refusal(text), {"o.json", "is not the list of a run's obstacles"});
     }

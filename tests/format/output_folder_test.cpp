@@ -237,6 +237,7 @@ TEST_F(OutputFolders, ForgetHalfALineThatAKillLeft) {
     put("out/not");
     OutputFolder output(out_, "run");
     output.adopt("b");
+    EXPECT_EQ(text_of("out/written.txt").substr(text_of("out/written.txt").find('\n')), "\na\nb\n");
     output.clear({});
     EXPECT_EQ(text_of("out/not"), "mine");
 }
@@ -244,15 +245,21 @@ TEST_F(OutputFolders, ForgetHalfALineThatAKillLeft) {
 TEST_F(OutputFolders, LoseWhatAKilledProgramLeftHalfWrittenAndNoOtherHiddenFile) {
     OutputFolder output(out_, "run");
     static_cast<void>(output.claim("frames/a.pent"));
-    const char* half = "out/frames/.a.pent.4711.tmp";
-    const char* others[] = {"out/frames/.mine.tmp", "out/frames/.b.pent.4711.tmp",
-                            "out/frames/.a.pent.x.tmp", "out/.a.pent.4711.tmp"};
-    put(half);
+    static_cast<void>(output.claim("frames/4711"));
+    const char* half[] = {"out/frames/.a.pent.4711.tmp", "out/.written.txt.4711.tmp"};
+    const char* others[] = {"out/frames/.mine.tmp",     "out/frames/.b.pent.4711.tmp",
+                            "out/frames/.a.pent.x.tmp", "out/frames/.a.pent..tmp",
+                            "out/frames/.4711.tmp",     "out/.a.pent.4711.tmp"};
+    for (const char* name : half) {
+        put(name);
+    }
     for (const char* name : others) {
         put(name);
     }
     output.remove_temporaries();
-    EXPECT_FALSE(has(half));
+    for (const char* name : half) {
+        EXPECT_FALSE(has(name)) << name;
+    }
     for (const char* name : others) {
         EXPECT_TRUE(has(name)) << name;
     }

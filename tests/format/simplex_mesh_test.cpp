@@ -70,8 +70,11 @@ TEST(Validate, AcceptsAGoodMeshInEveryDimension) {
 
 TEST(Validate, DoesNotDependOnSizePlaceOrFlatness) {
     for (const double size : {1e-60, 1e-9, 1.0, 1e9, 1e60}) {
+        const double small = 1e-4 * size;
         EXPECT_NO_THROW(
-            (validate(test::kuhn_box<4>({1, 1, 1, 1}, {size, size, size, 1e-4 * size}), "box")));
+            (validate(test::kuhn_box<4>({1, 1, 1, 1}, {size, size, size, small}), "plate")));
+        EXPECT_NO_THROW(
+            (validate(test::kuhn_box<4>({1, 1, 1, 1}, {size, small, small, small}), "rod")));
     }
     SimplexMesh<4> far = one_pentachoron();
     far.positions.array() += 1e7;
@@ -113,6 +116,9 @@ TEST(Validate, NamesAnInvertedCell) {
     std::swap(mesh.cells(0, 0), mesh.cells(1, 0));
     expect_contains(error_of([&] { validate(mesh, "m.pent"); }),
                     {"m.pent", "pentachoron 0", "inverted"});
+    mesh.positions.bottomRows(3) *= 1e-4;  // a thin one has a volume, too
+    expect_contains(error_of([&] { validate(mesh, "m.pent"); }),
+                    {"m.pent", "pentachoron 0", "inverted"});
 }
 
 TEST(Validate, NamesAFlatCellAtAnySize) {
@@ -132,9 +138,17 @@ TEST(Validate, NamesACellCollapsedToAPoint) {
 }
 
 TEST(Validate, NamesAnArrayOfWrongLength) {
-    SimplexMesh<4> mesh = one_pentachoron();
-    mesh.columns = {0, 1};
-    expect_contains(error_of([&] { validate(mesh, "m.pent"); }), {"2 columns", "none or 5"});
+    const auto message = [](const auto& damage) {
+        SimplexMesh<4> mesh = one_pentachoron();
+        damage(mesh);
+        return error_of([&] { validate(mesh, "m.pent"); });
+    };
+    expect_contains(message([](auto& mesh) { mesh.columns = {0, 1}; }), {"2 columns", "none or 5"});
+    expect_contains(message([](auto& mesh) { mesh.layers = {0, 1}; }), {"2 layers", "none or 5"});
+    expect_contains(message([](auto& mesh) { mesh.regions = {0, 1}; }), {"2 regions", "none or 1"});
+    expect_contains(message([](auto& mesh) { mesh.parents = {0, 1}; }), {"2 parents", "none or 1"});
+    expect_contains(message([](auto& mesh) { mesh.fibers.setOnes(4, 2); }),
+                    {"2 fibers", "none or 1"});
 }
 
 }  // namespace

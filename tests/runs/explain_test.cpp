@@ -6,6 +6,7 @@
 #include <pent/pent_file.h>
 #include <pent/runs/explain.h>
 #include <pent/runs/run.h>
+#include <pent/simulator/step_failures.h>
 
 #include <gtest/gtest.h>
 
@@ -479,7 +480,7 @@ TEST(Explain, SaysWhichStiffnessWouldDo) {
 }
 
 TEST(Remedy, SaysWhatToHoldWhereABodyMayTurnInEquilibrium) {
-    const std::string failure = "the matrix was not positive definite";
+    const std::string failure(simulator::kIndefiniteFailure);
     Scene scene;
     scene.solver.integrator = Integrator::Quasistatic;
     expect_contains(remedy(scene, failure, {}), {"4 vertices that are not in one plane"});

@@ -39,6 +39,32 @@ TEST(Resume, LeavesTheSceneFileThatItReadsAsItIs) {
     EXPECT_TRUE(fs::exists(folder / "run/frames/box_000002.pent"));
 }
 
+// Its copy of the scene names the mesh as seen from where it was.
+TEST(Resume, OfAFolderThatWasMovedSaysWhichMeshIsMissingAndGoesOnWithIt) {
+    const TempFolder folder;
+    fs::create_directories(folder / "there/project");
+    const Scene scene = falling_bar(folder, 2);
+    static_cast<void>(run(scene, {.folder = folder / "whole"}));
+    Scene part = scene;
+    part.frames = 1;
+    static_cast<void>(run(part, {.folder = folder / "run"}));
+    fs::rename(folder / "run", folder / "there/project/run");
+    const fs::path file = folder / "there/project/run/scene.toml";
+    const auto resume = [&] {
+        Scene moved = read_scene(file);
+        moved.frames = 2;
+        return run(moved, {.folder = file.parent_path(), .scene_file = file, .resume = true});
+    };
+    const std::string mesh = (folder / "there/project/bar.pent").string();
+    pent::test::expect_contains(pent::test::error_of([&] { static_cast<void>(resume()); }),
+                                {"run/scene.toml:", mesh + ": cannot be read: No such file",
+                                 "the mesh of \"box\": put it there, or let `mesh` name it"});
+    fs::rename(folder / "bar.pent", mesh);
+    EXPECT_EQ(resume().verdict, RunVerdict::Finished);
+    const std::string last = "frames/box_000002.pent";
+    EXPECT_EQ(bytes_of(file.parent_path() / last), bytes_of(folder / "whole" / last));
+}
+
 class ResumeIntegrators : public testing::TestWithParam<Integrator> {};
 INSTANTIATE_TEST_SUITE_P(All,
                          ResumeIntegrators,

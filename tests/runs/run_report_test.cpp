@@ -8,6 +8,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <fstream>
 
@@ -87,6 +88,16 @@ TEST_F(ReportFile, IsRefusedWithItsNameWhereItIsNotOne) {
                                 {"the number 4294967303 is too large"});
     pent::test::expect_contains(error_with("\"finished\"", "\"fine\""), {"\"fine\""});
     pent::test::expect_contains(error_with("{", "["), {"report.json: not the report of a run"});
+}
+
+// However long it takes to write, a run has nearly all of the time; people see it grow, if they can.
+TEST(ReportPause, LeavesTheTimeToTheRun) {
+    for (const double seconds : {0.0, 1e-3, 0.05, 0.2, 3.0, 60.0}) {
+        const double pause = report_pause(seconds);
+        EXPECT_LE(seconds, 0.0100001 * (seconds + pause));
+        EXPECT_GE(pause, 10);
+        EXPECT_LE(pause, std::max(10.0, 100 * seconds));
+    }
 }
 
 }  // namespace

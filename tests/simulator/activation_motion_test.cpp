@@ -1,3 +1,4 @@
+#include "muscle.h"
 #include "potential_laws.h"
 
 #include <pent/simulator/simulation.h>
@@ -26,13 +27,7 @@ Scene muscle_scene(double stretch) {
     scene.solver.precision = Precision::Double;
     scene.solver.tolerance = 1e-10;
     scene.solver.newton_tolerance = 1e-8;
-    Activation activation;
-    activation.body = "box";
-    activation.select = {EverythingSelection{}};
-    activation.stretch = stretch;
-    activation.fibers = Fibers::Constant;
-    activation.direction = Eigen::VectorXd::Unit(Dim, 0);
-    scene.activations = {activation};
+    scene.activations = {test::muscle(stretch, Eigen::VectorXd::Unit(Dim, 0))};
     return scene;
 }
 

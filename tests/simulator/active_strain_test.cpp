@@ -1,5 +1,6 @@
 #include "model/active_strain.h"
 
+#include "muscle.h"
 #include "potential_laws.h"
 #include "potentials/elasticity.h"
 #include "support/messages.h"
@@ -33,13 +34,7 @@ TYPED_TEST_SUITE(ActiveStrainTest, Dimensions);
 
 template <int Dim>
 Activation muscle(double stretch) {
-    Activation activation;
-    activation.body = "box";
-    activation.select = {EverythingSelection{}};
-    activation.stretch = stretch;
-    activation.fibers = Fibers::Constant;
-    activation.direction = Eigen::Matrix<double, Dim, 1>::LinSpaced(1, 2).normalized();
-    return activation;
+    return test::muscle(stretch, Eigen::Matrix<double, Dim, 1>::LinSpaced(1, 2).normalized());
 }
 
 TEST(Signal, OfASineGoesUpAndDownBetweenNothingAndAllOncePerPeriod) {

@@ -1,4 +1,5 @@
 #include "contact_scenes.h"
+#include "muscle.h"
 #include "potential_laws.h"
 
 #include <pent/simulator/energy.h>
@@ -109,14 +110,8 @@ TYPED_TEST(HeldElements, HaveTheWorkOfTheirActivations) {
         Scene scene = test::box_scene<kDim>();
         scene.solver.elements = kind;
         scene.frames_per_second = 10;
-        Activation activation;
-        activation.body = "box";
-        activation.select = {EverythingSelection{}};
-        activation.stretch = kStretch;
-        activation.fibers = Fibers::Constant;
-        activation.direction = Eigen::VectorXd::Unit(kDim, 0);
-        activation.keyframes = {{0, 0}, {0.3, 1}};
-        scene.activations = {activation};
+        scene.activations = {test::muscle(kStretch, Eigen::VectorXd::Unit(kDim, 0))};
+        scene.activations[0].keyframes = {{0, 0}, {0.3, 1}};
         scene.constraints = {test::hold(EverythingSelection{}, test::still(kDim))};
         Simulation<kDim> simulation(scene, {test::cube_for<kDim>(scene, 2)});
         double before = simulation.energies().of("elastic");

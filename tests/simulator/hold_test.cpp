@@ -8,6 +8,7 @@
 
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 // Vertices that are held for a while, and free before and after.
 
@@ -211,6 +212,33 @@ TEST(Holds, OfOneVertexAtOneTimeAreRefused) {
     pent::test::expect_contains(
         pent::test::error_of([&] { Simulation<3>(scene, {cube<3>()}); }),
         {"vertex", "held by two constraints at one time", "let one end before the other begins"});
+}
+
+// Also where no step begins while both hold: other steps make no other scene of it.
+TYPED_TEST(Hold, OfOneVertexByTwoIsJudgedByTimesWhateverTheSteps) {
+    constexpr int kDim = TypeParam::value;
+    Scene scene = falling_box<kDim>();
+    const auto expect_refused = [&](const Constraint& first, const Constraint& second) {
+        scene.constraints = {first, second};
+        scene.constraints[0].source = "one:1:1";
+        scene.constraints[1].source = "two:2:2";
+        pent::test::expect_contains(
+            pent::test::error_of([&] { Simulation<kDim>(scene, {cube<kDim>()}); }),
+            {"two:2:2: vertex", "at one time, this one and that at one:1:1; make"});
+    };
+    for (const double rate : {1.0, 30.0, 300.0, 1e5}) {
+        scene.frames_per_second = rate;
+        expect_refused(left<kDim>(0, 0.04), left<kDim>(0.035, 2));
+        expect_refused(left<kDim>(0.035, 2), left<kDim>(0, 0.04));
+        expect_refused(left<kDim>(0, 2), left<kDim>(0.03, 0.031));
+        // But for rounding one ends where the other begins.
+        for (const double other : {0.3, 0.1 + 0.2, std::nextafter(0.3, 0.0)}) {
+            scene.constraints = {left<kDim>(0, 0.1 + 0.2), left<kDim>(other, 2)};
+            EXPECT_NO_THROW(Simulation<kDim>(scene, {cube<kDim>()})) << rate << ", " << other;
+            std::swap(scene.constraints[0], scene.constraints[1]);
+            EXPECT_NO_THROW(Simulation<kDim>(scene, {cube<kDim>()})) << rate << ", " << other;
+        }
+    }
 }
 
 TEST(Holds, ThatDoNotLastAreNoneForStatics) {

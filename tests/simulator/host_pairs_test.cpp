@@ -152,6 +152,67 @@ TYPED_TEST(HostPairs, GoOnToTheBitWithABarrier) {
     }
 }
 
+// What a simulation that was put into a state says of it, whatever it did before.
+template <int Dim>
+void expect_same_report(const Simulation<Dim>& a, const Simulation<Dim>& b) {
+    expect_same(a, b);
+    for (int body = 0; body < a.body_count(); ++body) {
+        EXPECT_EQ(a.forces(body), b.forces(body)) << "body " << body;
+        EXPECT_EQ(a.contact_forces(body), b.contact_forces(body)) << "body " << body;
+    }
+    const Energies of_a = a.energies();
+    const Energies of_b = b.energies();
+    for (const TermEnergy& term : of_a.terms) {
+        EXPECT_EQ(term.energy, of_b.of(term.name)) << term.name;
+    }
+}
+
+TYPED_TEST(HostPairs, SayOfAStateWhatIsOfNoOther) {
+    constexpr int kDim = TypeParam::value;
+    for (const Integrator integrator : kWithInertia) {
+        for (const ContactModel model : {ContactModel::Penalty, ContactModel::Barrier}) {
+            if (integrator == Integrator::LinearEuler && model == ContactModel::Barrier) {
+                continue;
+            }
+            Scene scene = scene_of<kDim>(integrator, ElementKind::Linear, model);
+            scene.sleep.reset();
+            const Eigen::VectorXd zero = Eigen::VectorXd::Zero(kDim);
+            Load press{.body = "b",
+                       .select = {HalfSpaceSelection{.normal = Eigen::VectorXd::Unit(kDim, 0),
+                                                     .offset = 0.3}}};
+            press.force = zero;
+            press.pressure = 200;
+            scene.loads = {press};
+            const std::vector<SimplexMesh<kDim>> meshes(2, test::cube<kDim>());
+            Simulation<kDim> simulation(scene, meshes);
+            Simulation<kDim> other(scene, meshes);
+            test::throw_up(other, 1, 3);
+            for (int i = 0; i < 6; ++i) {
+                drive(simulation, i);
+                ASSERT_TRUE(simulation.step().is_accepted);
+                ASSERT_TRUE(other.step().is_accepted);
+            }
+            EXPECT_GT(simulation.contact_forces(0).norm(), 1);
+            const Snapshot<kDim> state = simulation.save();
+            Simulation<kDim> fresh(scene, meshes);
+            fresh.restore(state);
+            other.restore(state);
+            expect_same_report(fresh, other);
+            // The same where it is put there body by body, and with nothing behind it to hold.
+            Positions<kDim> moved = fresh.positions(1);
+            moved.row(0).array() += 0.01;
+            ASSERT_TRUE(other.step().is_accepted);
+            ASSERT_TRUE(fresh.step().is_accepted);
+            other.set_state(1, moved, 0 * moved);
+            fresh.set_state(1, moved, 0 * moved);
+            const Snapshot<kDim> put = fresh.save();
+            fresh.restore(state);
+            fresh.restore(put);
+            expect_same_report(fresh, other);
+        }
+    }
+}
+
 // A body that is pulled against another one, and against the floor, by far too long a spring: a
 // barrier holds, and penalties refuse nothing.
 TYPED_TEST(HostPairs, PullBodiesIntoEachOtherAndNothingCrosses) {

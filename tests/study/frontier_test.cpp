@@ -11,7 +11,7 @@ namespace {
 Result result(const std::string& name, double cost, double error) {
     Result r;
     r.settings = {{"s", name}};
-    r.verdict = "finished";
+    r.verdict = UnitVerdict::Finished;
     r.cost.seconds_per_frame = cost;
     r.cost.wall_seconds = 10 * cost;
     r.errors.position = error;
@@ -26,7 +26,7 @@ StudyReport report() {
     r.results = {result("slow", 2, 0.004),   result("fast", 0.1, 0.08),
                  result("beaten", 3, 0.01),  result("middle", 0.5, 0.02),
                  result("exact", 4, 0.0001), result("broken", 0.01, 0)};
-    r.results.back().verdict = "diverged";
+    r.results.back().verdict = UnitVerdict::Diverged;
     r.reference.cost.seconds_per_frame = 7;
     r.reference.error_bar = 0.001;
     r.reference.window = 0.5;

@@ -13,8 +13,11 @@ namespace {
 
 TEST(Record, IsReadBackAsItWasWritten) {
     const pent::test::TempFolder folder;
-    Record record{
-        .scene = "a\n\"b\"", .reference = "r", .meshes = 7, .threads = 5, .verdict = "finished"};
+    Record record{.scene = "a\n\"b\"",
+                  .reference = "r",
+                  .meshes = 7,
+                  .threads = 5,
+                  .verdict = UnitVerdict::Finished};
     record.wall_seconds = {0.1, 1.0 / 3, 2};
     record.machines = {{"n1", "A"}, {"n2", "B"}, {"n1", "A"}};
     record.errors.position = 0.01 / 3;
@@ -47,6 +50,21 @@ TEST(Record, IsNothingWhereThereIsNoFileAndAnErrorWhereThereIsAnother) {
     pent::test::expect_contains(
         pent::test::error_of([&] { static_cast<void>(read_record(folder / "bad.json")); }),
         {"bad.json", "remove"});
+}
+
+TEST(Record, KeepsEveryVerdictAndRefusesAWordThatIsNone) {
+    const pent::test::TempFolder folder;
+    const auto path = folder / "r.json";
+    for (const UnitVerdict verdict : simulator::values<UnitVerdict>()) {
+        write_record(path, {.verdict = verdict});
+        EXPECT_EQ(read_record(path)->verdict, verdict);
+    }
+    std::string text = read_text(path);
+    const std::string last = R"("verdict": "stopped")";
+    ASSERT_NE(text.find(last), std::string::npos) << text;
+    std::ofstream(path) << text.replace(text.find(last), last.size(), R"("verdict": "finish")");
+    pent::test::expect_contains(pent::test::error_of([&] { static_cast<void>(read_record(path)); }),
+                                {"r.json", "unknown verdict \"finish\"", "remove"});
 }
 
 // Test vectors of the authors of FNV: nothing, "a", "foobar".

@@ -88,7 +88,7 @@ TEST(RunStudy, FindsTheOrderOfTheReferenceAndErrorsThatFallWithTheStep) {
         EXPECT_GT(error(i), error(i + 1)) << i;  // bdf2 beats Euler at the same step
     }
     for (const Result& result : report.results) {
-        EXPECT_EQ(result.verdict, "finished");
+        EXPECT_EQ(result.verdict, UnitVerdict::Finished);
         EXPECT_GT(result.cost.wall_seconds, 0);
         EXPECT_GT(result.cost.peak_bytes, 1e6);
         EXPECT_GT(result.errors.iterations, 0);
@@ -229,9 +229,9 @@ TEST(RunStudy, ReportsSettingsThatDiverge) {
     const TempFolder folder;
     const StudyReport report =
         run_study(bar_study(folder, {"max_iterations=1,3000", "max_halvings=0"}));
-    EXPECT_EQ(report.results[0].verdict, "diverged");
+    EXPECT_EQ(report.results[0].verdict, UnitVerdict::Diverged);
     expect_contains(report.results[0].message, {"did not reach its tolerance"});
-    EXPECT_EQ(report.results[1].verdict, "finished");
+    EXPECT_EQ(report.results[1].verdict, UnitVerdict::Finished);
     EXPECT_EQ(report.frontier, std::vector<std::size_t>{1});
 }
 
@@ -250,9 +250,9 @@ TEST(RunStudy, VariesTheModelOfContactAndRefusesWhatDoesNotGoTogether) {
     EXPECT_EQ(report.reference.last.position, report.reference.difference.back());
     EXPECT_LT(report.reference.last.contact_work, report.results[0].errors.contact_work);
     for (const std::size_t i : {0U, 1U, 3U}) {
-        EXPECT_EQ(report.results[i].verdict, "finished") << report.results[i].message;
+        EXPECT_EQ(report.results[i].verdict, UnitVerdict::Finished) << report.results[i].message;
     }
-    EXPECT_EQ(report.results[2].verdict, "refused");  // barrier with linear_euler
+    EXPECT_EQ(report.results[2].verdict, UnitVerdict::Refused);  // barrier with linear_euler
     expect_contains(report.results[2].message, {"barrier", "newton_euler"});
     EXPECT_EQ(report.results[3].errors.deepest_penetration, 0);
     EXPECT_GT(report.results[3].errors.contact_work, 0);
@@ -282,7 +282,7 @@ TEST(RunStudy, VariesTheSettingsOfTheLinearSolver) {
                            "preconditioner=block-jacobi,rigid-modes"}));
     ASSERT_EQ(report.results.size(), 16U);
     for (const Result& result : report.results) {
-        EXPECT_EQ(result.verdict, "finished") << settings_text(result.settings);
+        EXPECT_EQ(result.verdict, UnitVerdict::Finished) << settings_text(result.settings);
     }
     for (std::size_t i = 0; i < 16; i += 2) {  // the better preconditioner in as many or fewer
         EXPECT_GE(report.results[i].errors.iterations, report.results[i + 1].errors.iterations)

@@ -65,7 +65,7 @@ TEST(Units, AreTheStudyInOneGoInAnyOrderAndRepeated) {
     EXPECT_EQ(prepared->units[2].kind, UnitKind::Reference);
     EXPECT_EQ(prepared->units[4].name, "runs/dt-1_60");
     for (const int unit : {5, 3, 5, 1, 4, 2, 3}) {
-        EXPECT_EQ(run_unit(parts.folder, unit, PENT_BIN).verdict, "finished") << unit;
+        EXPECT_EQ(run_unit(parts.folder, unit, PENT_BIN).verdict, UnitVerdict::Finished) << unit;
     }
     // Of the first, which ran before there was a reference, the frames had to wait.
     EXPECT_TRUE(std::filesystem::exists(parts.folder / "runs/dt-1_60/report.json"));
@@ -111,9 +111,9 @@ TEST(Units, OfAReferenceThatWasStoppedGoOnBehindItsLastFrame) {
     const UnitOutcome cut =
         run_unit(options.folder, 3, PENT_BIN,
                  {.should_stop = [&] { return std::filesystem::exists(report); }});
-    EXPECT_EQ(cut.verdict, "stopped");
+    EXPECT_EQ(cut.verdict, UnitVerdict::Stopped);
     const auto written = std::filesystem::last_write_time(report);
-    EXPECT_EQ(run_unit(options.folder, 3, PENT_BIN).verdict, "finished");
+    EXPECT_EQ(run_unit(options.folder, 3, PENT_BIN).verdict, UnitVerdict::Finished);
     EXPECT_EQ(std::filesystem::last_write_time(report), written);
 }
 
@@ -138,7 +138,7 @@ TEST(Units, ThatDivergeOrDoNotGoTogetherAreResults) {
     options.vary = {"contact=barrier", "integrator=linear_euler,bdf2"};
     EXPECT_TRUE(prepare_study(options)->units[3].is_done);
     const UnitOutcome refused = run_unit(options.folder, 4, PENT_BIN);
-    EXPECT_EQ(refused.verdict, "refused");
+    EXPECT_EQ(refused.verdict, UnitVerdict::Refused);
     EXPECT_FALSE(refused.has_failed);
     expect_contains(refused.message, {"barrier"});
 }
@@ -168,11 +168,11 @@ TEST(Units, AreRunByOneProgramEachAndManyAtOnce) {
     {
         const FileLock other(options.folder / "references/steps-2.toml", "");
         expect_contains(run_error(options, 1), {"steps-2.toml", "being run by another program"});
-        EXPECT_EQ(run_unit(options.folder, 4, PENT_BIN).verdict, "finished");
+        EXPECT_EQ(run_unit(options.folder, 4, PENT_BIN).verdict, UnitVerdict::Finished);
     }
     OutputFolder other(options.folder, "study");
     other.share();
-    EXPECT_EQ(run_unit(options.folder, 1, PENT_BIN).verdict, "finished");
+    EXPECT_EQ(run_unit(options.folder, 1, PENT_BIN).verdict, UnitVerdict::Finished);
     expect_contains(error_of([&] { static_cast<void>(prepare_study(options)); }),
                     {"another program is writing"});
 }
@@ -270,7 +270,7 @@ TEST(Units, RunWhereverTheFolderIs) {
     static_cast<void>(prepare_study(options));
     std::filesystem::rename(options.folder, folder / "moved");
     for (int unit = 1; unit <= 5; ++unit) {
-        EXPECT_EQ(run_unit(folder / "moved", unit, PENT_BIN).verdict, "finished");
+        EXPECT_EQ(run_unit(folder / "moved", unit, PENT_BIN).verdict, UnitVerdict::Finished);
     }
     EXPECT_EQ(collect_study(folder / "moved", "").results.size(), 2U);
 }

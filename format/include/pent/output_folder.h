@@ -10,6 +10,9 @@ namespace pent {
 
 class FileLock;
 
+/// The list of an OutputFolder, within it.
+inline constexpr const char* kFolderList = "written.txt";
+
 /// A folder of which a program knows what it wrote there. The names of its files stand in
 /// FOLDER/written.txt, each from before it is written, so that they do after a kill at any moment
 /// too; nothing else in the folder is ever replaced or removed.

@@ -12,15 +12,22 @@ namespace pent::mesher {
 
 namespace {
 
-// How far from zero a piece may be that a point lies on, in parts of the cells' scale.
+// How far from zero a piece may be that a point lies on, in parts of the cells' scale: as near as
+// nearest_common_zero() comes. A hundred times as much or a thousandth of it make the same cells but
+// for a few.
 constexpr double kOnPiece = 1e-6;
 
-// Pieces that meet at less than this angle (its cosine) are one smooth surface.
+// Pieces that meet at less than this angle (its cosine, 14 degrees) are one smooth surface: an edge
+// across such a ridge is off it by a sixteenth of its length at the most, 1/2 tan(7 degrees).
 constexpr double kSmoothCosine = 0.97;
 
-// Pieces that may have to be tried together for one place.
+// Pieces that may have to be tried together for one place. Four fix a point; those that turn out to
+// be in the way there go with them. Six meet at a corner of the 24-cell. With fewer some more edges
+// stay across ridges, with more some less, by a few in a hundred in turned polytopes.
 constexpr int kMaxPieces = 6;
 
+// What a pass mends may leave something else to mend, or undo it: shapes take up to seven, of which
+// those behind the third mend next to nothing.
 constexpr int kMaxPasses = 20;
 
 std::vector<int> common(const std::vector<int>& a, const std::vector<int>& b) {

@@ -4,12 +4,13 @@
 
 #include <pent/error.h>
 #include <pent/formatted.h>
+#include <pent/run_files.h>
 
 #include <Eigen/LU>
 
 #include <algorithm>
 #include <numeric>
-#include <system_error>
+#include <set>
 #include <utility>
 
 namespace pent::mesher {
@@ -18,27 +19,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Names without their ending of the .pent files in a folder, sorted; hidden ones are temporary.
-std::vector<std::string> pent_stems(const fs::path& folder) {
-    std::vector<std::string> stems;
-    std::error_code error;
-    fs::directory_iterator entry(folder, error);
-    for (; !error && entry != fs::directory_iterator(); entry.increment(error)) {
-        const fs::path name = entry->path().filename();
-        if (name.extension() == ".pent" && name.string().front() != '.') {
-            stems.push_back(name.stem().string());
-        }
-    }
-    if (error) {
-        throw Error(folder.string() + ": " + error.message()
-                    + "; expected a run folder of pent-sim, with meshes/ and frames/");
-    }
-    std::sort(stems.begin(), stems.end());
-    return stems;
-}
+constexpr const char* kExpected = "a run folder of pent-sim, with meshes/ and frames/";
 
 std::string body_of(const fs::path& folder, const std::string& asked) {
-    const std::vector<std::string> bodies = pent_stems(folder / "meshes");
+    const std::vector<std::string> bodies = bodies_of_run(folder, kExpected);
     std::string all;
     for (const std::string& body : bodies) {
         all += (all.empty() ? "" : ", ") + body;
@@ -57,18 +41,10 @@ std::string body_of(const fs::path& folder, const std::string& asked) {
 // The frames of a body, in their order.
 std::vector<fs::path> frames_of(const fs::path& folder, const std::string& body) {
     std::vector<fs::path> frames;
-    for (const std::string& stem : pent_stems(folder)) {
-        const bool has_name = stem.starts_with(body + "_") && stem.size() > body.size() + 6;
-        if (has_name
-            && stem.find_first_not_of("0123456789", body.size() + 1) == std::string::npos) {
-            frames.push_back(folder / (stem + ".pent"));
-        }
+    const std::set<int> numbers = frames_of_run(folder, kExpected)[body];
+    for (const int frame : numbers) {
+        frames.push_back(folder / frame_file(body, frame));
     }
-    std::sort(frames.begin(), frames.end(), [](const fs::path& a, const fs::path& b) {
-        const std::size_t left = a.native().size();
-        const std::size_t right = b.native().size();
-        return left != right ? left < right : a < b;  // by number, past the sixth digit too
-    });
     return frames;
 }
 
@@ -142,7 +118,7 @@ void add_frame(const Frame<3>& frame, const fs::path& path, double scale, Moving
 
 MovingMesh read_run_frames(const fs::path& folder, const SeriesOptions& options) {
     const std::string body = body_of(folder, options.body);
-    const fs::path mesh_path = folder / "meshes" / (body + ".pent");
+    const fs::path mesh_path = folder / mesh_file(body);
     const FileInfo info = read_info(mesh_path);
     if (info.dimension != 3) {
         throw Error(mesh_path.string() + ": has dimension " + std::to_string(info.dimension)
@@ -156,7 +132,7 @@ MovingMesh read_run_frames(const fs::path& folder, const SeriesOptions& options)
     mesh.left_out = file.mesh.parents.empty() ? "" : "parents of cells";
     mesh.cell_numbers.resize(static_cast<std::size_t>(mesh.base.cell_count()));
     std::iota(mesh.cell_numbers.begin(), mesh.cell_numbers.end(), 0U);
-    const std::vector<fs::path> frames = frames_of(folder / "frames", body);
+    const std::vector<fs::path> frames = frames_of(folder, body);
     if (frames.size() < 2) {
         throw Error(folder.string() + ": " + std::to_string(frames.size()) + " frames of " + body
                     + "; a space-time mesh needs two or more");

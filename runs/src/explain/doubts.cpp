@@ -4,6 +4,7 @@
 #include <pent/contact/obstacles.h>
 #include <pent/formatted.h>
 #include <pent/simulator/placed_mesh.h>
+#include <pent/simulator/step_failures.h>
 
 #include <Eigen/Geometry>
 
@@ -272,13 +273,13 @@ std::string remedy(const Scene& scene,
     if (!doubts.empty()) {
         return "look at the units first: " + doubts.front();
     }
-    if (failure.find("linear solver") != std::string::npos) {
+    if (failure == simulator::kSolverFailure) {
         return "try a larger solver.max_iterations, precision = \"double\", or more "
                "steps_per_frame";
     }
     // Without inertia nothing keeps what turns freely in its place.
     if (scene.solver.integrator == Integrator::Quasistatic
-        && failure.find("not positive definite") != std::string::npos) {
+        && failure == simulator::kIndefiniteFailure) {
         return std::string(
                    "hold more of each body, so that it can neither move nor turn: at least ")
                + (scene.dimension == 3 ? "3 vertices that are not in one line"

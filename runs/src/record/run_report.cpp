@@ -5,6 +5,8 @@
 #include <pent/error.h>
 #include <pent/read_text.h>
 
+#include <algorithm>
+
 namespace pent::runs {
 
 namespace {
@@ -101,6 +103,10 @@ RunReport read_report(const std::filesystem::path& path) {
     } catch (const std::exception& error) {
         throw Error(path.string() + ": not the report of a run (" + error.what() + ")");
     }
+}
+
+double report_pause(double seconds) {
+    return std::max(10.0, 99 * seconds);
 }
 
 std::string_view verdict_name(RunVerdict verdict) {

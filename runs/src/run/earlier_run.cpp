@@ -2,12 +2,12 @@
 
 #include "record/run_report.h"
 #include "run/resume.h"
-#include "run/run_files.h"
 
 #include <pent/error.h>
 #include <pent/output_folder.h>
 #include <pent/pent_file.h>
 #include <pent/read_text.h>
+#include <pent/run_files.h>
 
 #include <optional>
 #include <utility>
@@ -43,7 +43,7 @@ RunReport read_old_report(const fs::path& path) {
 
 Journal read_earlier_parts(const Scene& scene, const fs::path& folder) {
     if (!fs::exists(folder / kSceneFile)) {
-        throw Error(folder.string() + ": holds no run to resume (no scene.toml)");
+        throw Error(folder.string() + ": holds no run to resume (no " + kSceneFile + ")");
     }
     check_same_scene(folder / kSceneFile, scene);
     if (std::optional<Journal> journal = read_journal(folder / kJournalFile)) {

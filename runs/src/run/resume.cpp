@@ -1,7 +1,9 @@
 #include "run/resume.h"
 
 #include <pent/error.h>
+#include <pent/formatted.h>
 #include <pent/mesh_part.h>
+#include <pent/run_files.h>
 #include <pent/runs/scene_file.h>
 
 #include <algorithm>
@@ -277,20 +279,16 @@ StateBlocks carried_state_of_old_run(const fs::path& folder,
                       " barrier: going on would lead elsewhere; use --force to start again");
     }
     StateBlocks blocks;
-    const auto checkpoint = [&](const std::string& name, int number) {
-        return folder / "checkpoint" / frame_file_name(name, number);
-    };
     if (scene.sleep) {
-        const fs::path path = checkpoint("rest", frame).replace_extension(".json");
-        const std::vector<SleepState> sleep = read_rest(path, bodies);
+        const std::vector<SleepState> sleep = read_rest(folder / old_sleep_file(frame), bodies);
         for (std::size_t i = 0; i < bodies.size(); ++i) {
             put_sleep(blocks, bodies[i], sleep[i]);
         }
     }
     for (std::size_t i = 0; i < bodies.size(); ++i) {
-        const fs::path path = checkpoint(bodies[i], frame);
+        const fs::path path = folder / old_checkpoint_file(bodies[i], frame);
         if (!fs::exists(path)) {
-            if (fs::exists(checkpoint(bodies[i], frame + 2))) {
+            if (fs::exists(folder / old_checkpoint_file(bodies[i], frame + 2))) {
                 throw Error(path.string() + ": is not kept so far back; put the later frames back,"
                                             " or use --force to start again");
             }
@@ -304,6 +302,14 @@ StateBlocks carried_state_of_old_run(const fs::path& folder,
         put_positions<Dim>(blocks, velocities_block(bodies[i]), before.velocities, 0, count);
     }
     return blocks;
+}
+
+std::string old_checkpoint_file(const std::string& body, int frame) {
+    return std::string(kCheckpointFolder) + "/" + frame_file_name(body, frame);
+}
+
+std::string old_sleep_file(int frame) {
+    return std::string(kCheckpointFolder) + formatted("/rest_%06d.json", frame);
 }
 
 #define PENT_INSTANTIATE(Dim)                                                                  \

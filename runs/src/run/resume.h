@@ -66,4 +66,8 @@ template <int Dim>
                                                    const Scene& scene,
                                                    int frame);
 
+/// Where version 0.1.0 kept a body one step before a frame, and who slept there.
+[[nodiscard]] std::string old_checkpoint_file(const std::string& body, int frame);
+[[nodiscard]] std::string old_sleep_file(int frame);
+
 }  // namespace pent::runs

@@ -3,9 +3,9 @@
 #include "record/checkpoint_file.h"
 #include "run/earlier_run.h"
 #include "run/resume.h"
-#include "run/run_files.h"
 
 #include <pent/error.h>
+#include <pent/run_files.h>
 
 #include <algorithm>
 #include <optional>
@@ -172,12 +172,12 @@ std::vector<std::string> files_of_old_run(const std::vector<std::string>& bodies
         names.push_back(mesh_file(body));
         for (int frame = 0; frame <= last_frame; ++frame) {
             names.push_back(frame_file(body, frame));
-            names.push_back("checkpoint/" + frame_file_name(body, frame));
+            names.push_back(old_checkpoint_file(body, frame));
         }
     }
     for (int frame = 0; frame <= last_frame; ++frame) {
         names.push_back(contacts_file(frame));
-        names.push_back(formatted("checkpoint/rest_%06d.json", frame));
+        names.push_back(old_sleep_file(frame));
     }
     return names;
 }

@@ -9,7 +9,6 @@
 #include "run/relocated.h"
 #include "run/resume.h"
 #include "run/resumption.h"
-#include "run/run_files.h"
 #include "run/run_meshes.h"
 #include "run/run_ranks.h"
 #include "run/simulation_options.h"
@@ -19,6 +18,7 @@
 #include <pent/output_file.h>
 #include <pent/output_folder.h>
 #include <pent/pent_file.h>
+#include <pent/run_files.h>
 #include <pent/runs/run.h>
 #include <pent/runs/scene_file.h>
 #include <pent/simulator/crossing_error.h>
@@ -34,8 +34,9 @@ namespace {
 namespace fs = std::filesystem;
 using Clock = std::chrono::steady_clock;
 
-// Between two writings of report.json while a run goes on.
-constexpr double kReportSeconds = 10;
+double seconds_from(Clock::time_point start, Clock::time_point end) {
+    return std::chrono::duration<double>(end - start).count();
+}
 
 template <int Dim>
 class Run {
@@ -73,9 +74,7 @@ public:
 
 private:
     [[nodiscard]] fs::path path(const std::string& name) const { return options_.folder / name; }
-    [[nodiscard]] double seconds() const {
-        return std::chrono::duration<double>(Clock::now() - start_).count();
-    }
+    [[nodiscard]] double seconds() const { return seconds_from(start_, Clock::now()); }
     [[nodiscard]] const std::string& name_of(int body) const {
         return scene_.bodies[static_cast<std::size_t>(body)].name;
     }
@@ -106,7 +105,8 @@ private:
     std::string lines_;  // of the journal, to be written with the next frame
     RunReport report_;
     Clock::time_point start_ = Clock::now();
-    Clock::time_point last_report_ = start_;
+    Clock::time_point last_report_ = start_;  // when it was done
+    double report_pause_ = 0;                 // from then to the next, s
 };
 
 template <int Dim>
@@ -262,7 +262,7 @@ void Run<Dim>::begin_frame(int frame) {
                          simulation_.step_count(), carried);
     }
     if (do_obstacles_move()) {
-        write_obstacles(folder_.claim(moved_obstacles_file(frame)), simulation_.obstacles());
+        write_obstacles(folder_.claim(obstacles_file(frame)), simulation_.obstacles());
     }
     if (scene_.output.contact_pairs) {
         write_text(folder_.claim(contacts_file(frame)),
@@ -320,7 +320,7 @@ bool Run<Dim>::step_to_frame(int frame) {
 
 template <int Dim>
 void Run<Dim>::write_report() {
-    last_report_ = Clock::now();
+    const Clock::time_point start = Clock::now();
     report_.parts.back().seconds = seconds();
     report_.seconds = 0;
     for (const RunPart& part : report_.parts) {
@@ -336,6 +336,8 @@ void Run<Dim>::write_report() {
     if (scene_.output.balance) {
         write_text(folder_.claim(kBalanceFile), balance_table(report_.steps, scene_.dimension));
     }
+    last_report_ = Clock::now();
+    report_pause_ = report_pause(seconds_from(start, last_report_));
 }
 
 template <int Dim>
@@ -364,8 +366,7 @@ RunReport Run<Dim>::operator()() {
         ++frame;
         write_frame_files(frame);
         ranks_.write([&] {
-            if (std::chrono::duration<double>(Clock::now() - last_report_).count()
-                > kReportSeconds) {
+            if (seconds_from(last_report_, Clock::now()) > report_pause_) {
                 write_report();  // GCOVR_EXCL_LINE: of runs longer than a test may be
             }
         });

@@ -3,17 +3,39 @@
 #include "run/resume.h"
 #include "scene/scene_meshes.h"
 
+#include <pent/error.h>
 #include <pent/simulator/placed_mesh.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <span>
+#include <system_error>
 #include <utility>
 
 namespace pent::runs {
 
+namespace {
+
+// The copy of a scene in the folder of a run names meshes as seen from there: whoever has moved the
+// folder, or was sent it, has to be told what else it takes.
+void require_files(const Scene& scene) {
+    for (const Body& body : scene.bodies) {
+        std::error_code ignored;
+        if (std::filesystem::status(body.mesh, ignored).type()
+            == std::filesystem::file_type::not_found) {
+            throw Error((body.source.empty() ? "" : body.source + ": ") + body.mesh
+                        + ": cannot be read: No such file or directory; it is the mesh of \""
+                        + body.name + "\": put it there, or let `mesh` name it where it is");
+        }
+    }
+}
+
+}  // namespace
+
 template <int Dim>
 Simulation<Dim> RunMeshes<Dim>::simulate(const simulator::SimulationOptions& options,
                                          const Look& look) {
+    ranks_.agree([&] { require_files(scene_); });
     if (ranks_.count() > 0) {
         SceneParts<Dim> parts = read_parts<Dim>(scene_, ranks_);
         warnings_ = std::move(parts.warnings);

@@ -34,7 +34,8 @@ public:
     /// Both must outlive this.
     RunMeshes(const Scene& scene, const RunRanks& ranks) : scene_(scene), ranks_(ranks) {}
 
-    /// Reads them: ranks as read_parts(), a program on its own as read_meshes().
+    /// Reads them: ranks as read_parts(), a program on its own as read_meshes(). Throws an Error
+    /// that says what to do where a file is missing.
     ///
     /// @param look  Sees each of them before the simulation has them, on all ranks together.
     [[nodiscard]] Simulation<Dim> simulate(const simulator::SimulationOptions& options,

@@ -3,10 +3,7 @@
 #include <pent/error.h>
 #include <pent/formatted.h>
 #include <pent/number_bounds.h>
-#include <pent/simulator/placed_mesh.h>
 
-#include <algorithm>
-#include <map>
 #include <utility>
 
 namespace pent::runs {
@@ -15,10 +12,6 @@ namespace {
 
 std::string at(const std::string& source) {
     return source.empty() ? "" : source + ": ";
-}
-
-bool do_overlap(const Constraint& a, const Constraint& b) {
-    return a.from < b.to && b.from < a.to;
 }
 
 }  // namespace
@@ -80,36 +73,12 @@ void judge_facets(const Scene& scene,
 }
 
 template <int Dim>
-void check_constraints(const Scene& scene, const Body& body, const SimplexMesh<Dim>& mesh) {
-    if (std::none_of(scene.constraints.begin(), scene.constraints.end(),
-                     [&](const Constraint& constraint) { return constraint.body == body.name; })) {
-        return;
-    }
-    SimplexMesh<Dim> placed = mesh;
-    put_in_place(placed, body.place);
-    std::multimap<std::uint32_t, const Constraint*> held;
-    for (const Constraint& constraint : scene.constraints) {
-        if (constraint.body != body.name) {
-            continue;
-        }
-        for (const std::uint32_t vertex : select_vertices(placed, constraint)) {
-            const auto [begin, end] = held.equal_range(vertex);
-            const auto other = std::find_if(begin, end, [&](const auto& entry) {
-                return do_overlap(*entry.second, constraint);
-            });
-            if (other != end) {
-                throw Error(at(constraint.source) + "vertex " + std::to_string(vertex)
-                            + " of body \"" + body.name
-                            + "\" is held by two constraints at one time"
-                            + (other->second->source.empty()
-                                   ? ""
-                                   : ", this one and that at " + other->second->source)
-                            + "; make their selections disjoint, or let one end before the"
-                              " other begins");
-            }
-            held.emplace(vertex, &constraint);
-        }
-    }
+void judge_mesh(const Scene& scene,
+                const Body& body,
+                const SimplexMesh<Dim>& mesh,
+                std::vector<std::string>& warnings) {
+    check_size(mesh, body);
+    judge_facets<Dim>(scene, body, match_facets<Dim>(mesh.cells, mesh.vertex_count()), warnings);
 }
 
 template <int Dim>
@@ -119,24 +88,20 @@ SceneMeshes<Dim> read_meshes(const Scene& scene) {
         static_cast<void>(info_of_mesh<Dim>(body));
         SimplexMesh<Dim> mesh;
         with_place_of(body, [&] { mesh = read_mesh<Dim>(body.mesh).mesh; });
-        check_size(mesh, body);
-        judge_facets<Dim>(scene, body, match_facets<Dim>(mesh.cells, mesh.vertex_count()),
-                          result.warnings);
+        judge_mesh(scene, body, mesh, result.warnings);
         result.meshes.push_back(std::move(mesh));
-    }
-    for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
-        check_constraints(scene, scene.bodies[i], result.meshes[i]);
     }
     return result;
 }
 
 #define PENT_INSTANTIATE(Dim)                                                          \
     template SceneMeshes<Dim> read_meshes<Dim>(const Scene&);                          \
+    template void judge_mesh<Dim>(const Scene&, const Body&, const SimplexMesh<Dim>&,  \
+                                  std::vector<std::string>&);                          \
     template FileInfo info_of_mesh<Dim>(const Body&);                                  \
     template void check_size<Dim>(const SimplexMesh<Dim>&, const Body&);               \
     template void judge_facets<Dim>(const Scene&, const Body&, const FacetMatch<Dim>&, \
-                                    std::vector<std::string>&);                        \
-    template void check_constraints<Dim>(const Scene&, const Body&, const SimplexMesh<Dim>&);
+                                    std::vector<std::string>&);
 PENT_INSTANTIATE(3)
 PENT_INSTANTIATE(4)
 #undef PENT_INSTANTIATE

@@ -251,15 +251,6 @@ public:
         check_infos();
         read_vertices();
         read_cells();
-        ranks_.agree([&] {
-            for (std::size_t i = 0; i < scene_.bodies.size(); ++i) {
-                const Body& body = scene_.bodies[i];
-                if (!are_labels_asked_for(scene_, body)) {
-                    // else the simulation does, as all have to look together
-                    check_constraints(scene_, body, result_.parts[i].mesh);
-                }
-            }
-        });
         return std::move(result_);
     }
 

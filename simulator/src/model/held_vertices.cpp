@@ -1,6 +1,7 @@
 #include "model/held_vertices.h"
 
 #include "model/part_selection.h"
+#include "model/same_time.h"
 
 #include <pent/dimensions.h>
 #include <pent/error.h>
@@ -18,20 +19,17 @@ namespace pent::simulator {
 
 namespace {
 
-// Times that differ by this part of a step are the same, as they are sums of rounded ones.
-constexpr double kSameTime = 1e-6;
-
 // The first step that begins at a time or later.
 std::uint64_t first_step_from(double time, double dt) {
     constexpr auto kNever = std::numeric_limits<std::uint64_t>::max();
-    const double step = std::ceil(time / dt - kSameTime);
+    const double step = steps_to(time, dt);
     return step < 1e18 ? static_cast<std::uint64_t>(std::max(step, 0.0)) : kNever;
 }
 
 // A keyframe that a constraint is past when it takes its vertices up would be a jump, or nothing.
 void refuse_early_keyframes(const Constraint& constraint, double start, double dt) {
     for (const Motion& motion : constraint.motion) {
-        if (!motion.keyframes.empty() && motion.keyframes.front().time <= start + kSameTime * dt) {
+        if (!motion.keyframes.empty() && is_by(motion.keyframes.front().time, start, dt)) {
             throw Error(
                 place_and_name(constraint)
                 + formatted(": the first of \"keyframes\" is at %g s, and the first step that"
@@ -94,20 +92,32 @@ DirichletSet<Dim> make_set(const Constraint& constraint,
     return set;
 }
 
-// Throws where two sets hold a vertex in one step.
-template <int Dim>
-void refuse_overlap(const DirichletSet<Dim>& set,
-                    const DirichletSet<Dim>& other,
-                    const Scene& scene,
-                    const Bodies<Dim>& bodies) {
+// Whether one constraint lets go before another takes hold: by their times, so that a scene that is
+// right stays so with other steps.
+bool does_end_before(const Constraint& first, const Constraint& then, double dt) {
+    return is_by(first.to, then.from, dt)
+           && first_step_from(first.to, dt) <= first_step_from(then.from, dt);
+}
+
+// Throws where two constraints, which hold these vertices, hold one of them at one time.
+void refuse_overlap(const Constraint& constraint,
+                    const std::vector<std::uint32_t>& vertices,
+                    const Constraint& other,
+                    const std::vector<std::uint32_t>& vertices_of_other,
+                    double dt,
+                    std::uint32_t first_of_body) {
+    if (does_end_before(other, constraint, dt) || does_end_before(constraint, other, dt)) {
+        return;
+    }
     std::vector<std::uint32_t> both;
-    std::set_intersection(set.vertices.begin(), set.vertices.end(), other.vertices.begin(),
-                          other.vertices.end(), std::back_inserter(both));
-    if (!both.empty() && set.first_step < other.end_step && other.first_step < set.end_step) {
-        throw Error("vertex " + std::to_string(both.front() - bodies.first_vertex[set.body])
-                    + " of body \"" + scene.bodies[set.body].name
-                    + "\" is held by two constraints at one time; make their selections disjoint,"
-                      " or let one end before the other begins");
+    std::set_intersection(vertices.begin(), vertices.end(), vertices_of_other.begin(),
+                          vertices_of_other.end(), std::back_inserter(both));
+    if (!both.empty()) {
+        throw Error((constraint.source.empty() ? "" : constraint.source + ": ") + "vertex "
+                    + std::to_string(both.front() - first_of_body) + " of body \"" + constraint.body
+                    + "\" is held by two constraints at one time"
+                    + (other.source.empty() ? "" : ", this one and that at " + other.source)
+                    + "; make their selections disjoint, or let one end before the other begins");
     }
 }
 
@@ -124,7 +134,7 @@ void place_host_holds(const HostHolds<Dim>& holds,
         const auto column = static_cast<Eigen::Index>(i);
         const Vector<Dim> displacement = holds.targets.col(column) - holds.starts.col(column);
         positions.col(vertex) = holds.targets.col(column);
-        if (part < 1 - kSameTime) {
+        if (!is_whole_step(part)) {
             positions.col(vertex) = holds.starts.col(column) + part * displacement;
         }
         if (velocities != nullptr) {
@@ -140,8 +150,10 @@ HeldVertices<Dim>::HeldVertices(const Scene& scene, const Bodies<Dim>& bodies)
     : is_held_(static_cast<std::size_t>(bodies.vertex_count()), false), is_always_held_(is_held_) {
     for (const Constraint& constraint : scene.constraints) {
         DirichletSet<Dim> set = make_set<Dim>(constraint, scene, bodies);
-        for (const DirichletSet<Dim>& other : sets_) {
-            refuse_overlap<Dim>(set, other, scene, bodies);
+        for (std::size_t other = 0; other < sets_.size(); ++other) {
+            refuse_overlap(constraint, set.vertices, scene.constraints[other],
+                           sets_[other].vertices, scene.dt(),
+                           static_cast<std::uint32_t>(bodies.first_vertex[set.body]));
         }
         for (const std::uint32_t vertex : set.vertices) {
             is_always_held_[vertex] =

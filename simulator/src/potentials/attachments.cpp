@@ -2,6 +2,7 @@
 
 #include "model/nearest_in_body.h"
 #include "model/part_selection.h"
+#include "model/same_time.h"
 
 #include <pent/dimensions.h>
 #include <pent/error.h>
@@ -18,9 +19,6 @@ namespace {
 // Coordinates of an offset beyond this belong to a cell so flat that the spring would be this many
 // times as strong on its corners.
 constexpr double kMaxCoordinate = 100;
-
-// Times that differ by this part of a step are the same: a step begins at a sum of rounded ones.
-constexpr double kSameTime = 1e-6;
 
 }  // namespace
 
@@ -147,15 +145,14 @@ void Attachments<Dim>::for_each_spring(const Visit& visit) const {
 
 template <int Dim>
 bool Attachments<Dim>::is_there(const Attachment& attachment, double begin) const {
-    const double time = begin + kSameTime * dt_;
-    return attachment.from <= time && time < attachment.to;
+    return is_by(attachment.from, begin, dt_) && !is_by(attachment.to, begin, dt_);
 }
 
 template <int Dim>
 bool Attachments<Dim>::set_time(const TimeSpan& step) {
     bool has_changed = false;
     // Of the step that this is a part of, where it was cut: they come and go between steps.
-    const double whole = dt_ * std::floor(step.begin / dt_ + kSameTime);
+    const double whole = dt_ * whole_steps(step.begin, dt_);
     for (Bundle& bundle : bundles_) {
         const bool was_on = bundle.is_on;
         bundle.is_on = is_there(*bundle.attachment, whole);

@@ -1,5 +1,7 @@
 #include "potentials/friction_potential.h"
 
+#include "model/same_time.h"
+
 #include <pent/dimensions.h>
 
 #include <cmath>
@@ -9,8 +11,7 @@ namespace pent::simulator {
 
 template <int Dim>
 bool FrictionPotential<Dim>::set_time(const TimeSpan& step) {
-    constexpr double kRounding = 1e-6;  // of a step: far more than that of times, and no step
-    if (std::abs(step.end - end_of_step_) > kRounding * (step.end - step.begin)) {
+    if (std::abs(step.end - end_of_step_) > kSameTime * (step.end - step.begin)) {
         friction_.end_step();
         end_of_step_ = step.end;
     }

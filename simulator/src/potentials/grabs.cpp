@@ -1,5 +1,7 @@
 #include "potentials/grabs.h"
 
+#include "model/same_time.h"
+
 #include <pent/dimensions.h>
 
 #include <algorithm>
@@ -8,9 +10,6 @@
 namespace pent::simulator {
 
 namespace {
-
-// Times that differ by this part of a step are the same: parts of a step end at rounded sums.
-constexpr double kSameTime = 1e-6;
 
 // A pull of `force` newtons is weakened by this to be no harder than `most`.
 double weakening(double force, double most) {
@@ -71,7 +70,7 @@ bool Grabs<Dim>::set_time(const TimeSpan& step) {
         const auto& [id, grab, from] = holdings_[g];
         Pull& pull = pulls_[g];
         Vector<Dim> to = grab.anchor;
-        if (part < 1 - kSameTime) {
+        if (!is_whole_step(part)) {
             to = from + part * (grab.anchor - from);
         }
         const bool was_weakened = pull.law.stiffness != grab.stiffness;

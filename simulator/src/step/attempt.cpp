@@ -14,8 +14,12 @@ namespace pent::simulator {
 
 namespace {
 
-// Corrections below this part of the scene's extent are none.
+// Corrections below this part of the scene's extent are none; of an extent of at most so many times
+// that of the smallest body, which is seen where others are far larger, or far away; and those that
+// drown in the rounding of places, by this part of them.
 constexpr double kNegligible = 1e-10;
+constexpr double kMaxOfSmallest = 1e3;
+constexpr double kRoundingOfPlaces = 1e-13;
 
 // With a barrier, Newton's method has converged as well where a correction, taken whole, was below
 // this many times its tolerance of the distance of contact, and the residual is below as many times
@@ -124,6 +128,14 @@ std::string Simulation<Dim>::Stepper::tunneling() const {
     return passed.empty() ? "" : passed + " in one step, unseen by penalties" + kAdvice;
 }
 
+// The length of a correction of Newton's method that is none, m.
+template <int Dim>
+double Simulation<Dim>::Stepper::negligible_correction() const {
+    const double rounding = kRoundingOfPlaces * current_.positions.cwiseAbs().maxCoeff();
+    return std::max(kNegligible * std::min(extent_, kMaxOfSmallest * smallest_),
+                    std::min(kNegligible * extent_, rounding));
+}
+
 // Newton's method without a barrier: Dirichlet vertices are at their places from the beginning, and
 // the first iteration spreads their motion over all. If the value is larger there than with every
 // free vertex where it was, the method begins here. A damped step is a few iterations of the same:
@@ -153,7 +165,7 @@ NewtonReport Simulation<Dim>::Stepper::minimize(Method method) {
     }
     return newton(potential_,
                   {.tolerance = scene_.solver.newton_tolerance,
-                   .min_correction = kNegligible * extent_,
+                   .min_correction = negligible_correction(),
                    .bound = kMaxExtents * extent_,
                    .max_iterations = is_damped ? kDampedIterations : kMaxIterations,
                    .may_stop_short = is_damped,
@@ -174,7 +186,7 @@ NewtonReport Simulation<Dim>::Stepper::minimize_bounded(const StepProblem<Dim>& 
         newton(potential_,
                {.tolerance = tolerance,
                 // Corrections that nobody can see, next to the distance of contact.
-                .min_correction = std::max(kNegligible * extent_,
+                .min_correction = std::max(negligible_correction(),
                                            tolerance * std::min(scene_.contact->distance, extent_)),
                 .settled = kSettled,
                 .bound = kMaxExtents * extent_,

@@ -5,6 +5,7 @@
 #include <pent/dimensions.h>
 #include <pent/error.h>
 #include <pent/formatted.h>
+#include <pent/simulator/step_failures.h>
 #include <pent/stopwatch.h>
 
 #include <algorithm>
@@ -45,6 +46,7 @@ IncrementalPotential<Dim>::IncrementalPotential(const Workers& workers,
           number_dofs_alike(bodies, held, std::vector<bool>(bodies.count(), true)))),
       rows_(rows_of(dofs_, bodies, held, std::vector<bool>(bodies.count(), true))),
       scales_(bodies),
+      range_(Dim, bodies.masses, bodies.ranges),
       inertia_(workers, dofs_, bodies.masses),
       mass_drag_(workers, dofs_, bodies.masses),
       stiffness_drag_(
@@ -220,16 +222,18 @@ bool IncrementalPotential<Dim>::assemble(NewtonSystem<Dim>& system,
                                          const Positions<Dim>& displacement) {
     const Stopwatch watch;
     const Positions<Dim>& x = energy_->positions();
-    system.begin(-at_dofs(*rows_, gradient), displacement);
+    // A power of two changes no bit, and what all of an equation is divided by no solution.
+    const double part = 1 / range_.unit(problem_->inertia, problem_->scale);
+    system.begin(-part * at_dofs(*rows_, gradient), displacement);
     double others = 0;  // seconds, which terms count themselves
     for (const auto& term : energy_->terms()) {
         const Stopwatch own;
-        term->add_hessian(x, problem_->scale, filter, system);
+        term->add_hessian(x, part * problem_->scale, filter, system);
         others += term.get() == elasticity_ ? 0 : own.seconds();
     }
-    const double drag = problem_->scale * problem_->rate;
+    const double drag = part * problem_->scale * problem_->rate;
     if (problem_->inertia != 0) {
-        inertia_.add_hessian(x, problem_->inertia, filter, system);
+        inertia_.add_hessian(x, part * problem_->inertia, filter, system);
     }
     if (drag * damping_.mass != 0) {
         mass_drag_.add_hessian(x, drag * damping_.mass, filter, system);
@@ -249,14 +253,16 @@ bool IncrementalPotential<Dim>::assemble(NewtonSystem<Dim>& system,
     return true;
 }
 
-// In float, or where masses would be lost in its rounding in double; null if they are lost there,
-// too. Which of both is assembled first saves time and tells nothing of what comes out.
+// In float, or in double where float does not hold the numbers or masses would be lost in its
+// rounding; null if they are lost in double, too. Which of both is assembled first saves time and
+// tells nothing of what comes out.
 template <int Dim>
 NewtonSystem<Dim>* IncrementalPotential<Dim>::assemble_somehow(Filter filter,
                                                                const Positions<Dim>& gradient,
                                                                const Positions<Dim>& displacement) {
     const auto is_float_enough = [&] {
-        return float_system_ && assemble(*float_system_, filter, gradient, displacement);
+        return float_system_ && range_.is_in_float(problem_->inertia, problem_->scale)
+               && assemble(*float_system_, filter, gradient, displacement);
     };
     const bool is_float_first = !was_double_needed_;
     if (is_float_first && is_float_enough()) {
@@ -324,9 +330,8 @@ NewtonDirection<Dim> IncrementalPotential<Dim>::solve(const Positions<Dim>& grad
     const bool is_usable =
         solution.report.has_converged || (may_be_rough_ && !solution.report.has_broken_down);
     if (!is_usable) {
-        direction.failure_reason = solution.report.has_broken_down
-                                       ? "the matrix was not positive definite"
-                                       : "the linear solver did not reach its tolerance";
+        direction.failure_reason =
+            solution.report.has_broken_down ? kIndefiniteFailure : kSolverFailure;
         return direction;
     }
     direction.step = displacement;

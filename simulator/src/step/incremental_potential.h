@@ -6,6 +6,7 @@
 #include "potentials/rayleigh_damping.h"
 #include "potentials/scene_energy.h"
 #include "step/force_scales.h"
+#include "step/matrix_range.h"
 #include "step/objective.h"
 #include "step/step_problem.h"
 
@@ -122,6 +123,7 @@ private:
     std::shared_ptr<const DofMap> rows_;           // the same as this rank has them in its matrix
     std::shared_ptr<const BlockPattern> pattern_;  // of elements, by rows
     ForceScales<Dim> scales_;
+    MatrixRange range_;
     MassDistance<Dim> inertia_;
     MassDistance<Dim> mass_drag_;
     RayleighDamping<Dim> stiffness_drag_;

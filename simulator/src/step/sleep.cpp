@@ -1,5 +1,7 @@
 #include "step/sleep.h"
 
+#include "model/same_time.h"
+
 #include <pent/dimensions.h>
 
 #include <algorithm>
@@ -38,9 +40,8 @@ Islands<Dim>::Islands(const Scene& scene, const Bodies<Dim>& bodies, const HeldV
     if (!is_on_) {
         return;
     }
-    // A time of so many steps is not to become one more by rounding.
     steps_to_sleep_ =
-        static_cast<std::uint64_t>(std::max(1.0, std::ceil(scene.sleep->time / scene.dt() - 1e-6)));
+        static_cast<std::uint64_t>(std::max(1.0, steps_to(scene.sleep->time, scene.dt())));
     for (std::size_t body = 0; body < states_.size(); ++body) {
         const auto& positions = bodies.meshes[body].positions;
         const double size =

@@ -18,14 +18,14 @@ namespace pent::simulator {
 
 namespace {
 
-// Shortest side of the boxes around bodies at rest, m.
-template <int Dim>
-double thinnest(const Bodies<Dim>& bodies) {
+// The least of what a function gives for the sides of the boxes around bodies at rest, m.
+template <int Dim, typename Length>
+double least(const Bodies<Dim>& bodies, const Length& length) {
     double shortest = std::numeric_limits<double>::infinity();
     for (const SimplexMesh<Dim>& mesh : bodies.meshes) {
         const Eigen::Matrix<double, Dim, 1> sides =
             mesh.positions.rowwise().maxCoeff() - mesh.positions.rowwise().minCoeff();
-        shortest = std::min(shortest, sides.minCoeff());
+        shortest = std::min(shortest, length(sides));
     }
     return shortest;
 }
@@ -54,7 +54,8 @@ Simulation<Dim>::Stepper::Stepper(const Scene& scene,
       islands_(scene, bodies_, held_),
       asleep_(islands_.asleep()),
       extent_((bodies_.rest().rowwise().maxCoeff() - bodies_.rest().rowwise().minCoeff()).norm()),
-      thinnest_(thinnest(bodies_)) {
+      smallest_(least(bodies_, [](const auto& sides) { return sides.norm(); })),
+      thinnest_(least(bodies_, [](const auto& sides) { return sides.minCoeff(); })) {
     potential_.refuse_unsolvable(options.memory);
     potential_.set_observer(options.on_iterate);
     current_.positions = bodies_.rest();
@@ -79,6 +80,20 @@ void Simulation<Dim>::Stepper::evaluate_current() {
     }
 }
 
+// The same of a state that no step has led to: what terms hold of the last one (normal forces of
+// friction, rates of damping, walls of pressure) is of another state.
+template <int Dim>
+void Simulation<Dim>::Stepper::evaluate_anew() {
+    evaluate_current();
+    const Positions<Dim> none = Positions<Dim>::Zero(Dim, current_.positions.cols());
+    energy_.sum.begin_step({.positions = current_.positions,
+                            .velocities = current_.velocities,
+                            .origin = current_.positions,
+                            .prescribed_displacement = none,
+                            .h = scene_.dt()});
+    evaluate_current();
+}
+
 template <int Dim>
 void Simulation<Dim>::Stepper::set_body(int body,
                                         const Positions<Dim>& positions,
@@ -87,15 +102,14 @@ void Simulation<Dim>::Stepper::set_body(int body,
     Positions<Dim> all = current_.positions;
     all.middleCols(range.begin, range.size) = positions;
     refuse_crossings(all);
-    for (const std::size_t neighbor : neighbors_of_body(static_cast<std::size_t>(body))) {
-        islands_.wake(static_cast<int>(neighbor));  // what it carries is about to fall
-    }
+    // With what it carries, which is about to fall.
+    std::vector<std::size_t> moved = neighbors_of_body(static_cast<std::size_t>(body));
+    moved.push_back(static_cast<std::size_t>(body));
     current_.positions = all;  // copied: hosts see the arrays where they lie
     current_.velocities.middleCols(range.begin, range.size) = velocities;
-    islands_.wake(body);
-    number_dofs_of_the_awake();
+    wake(moved);
     forget_history();  // of where it was taken from
-    evaluate_current();
+    evaluate_anew();
 }
 
 template <int Dim>
@@ -151,7 +165,7 @@ void Simulation<Dim>::Stepper::restore(const Snapshot<Dim>& snapshot) {
     } else {
         number_dofs_of_the_awake();
     }
-    evaluate_current();
+    evaluate_anew();
 }
 
 template <int Dim>
@@ -254,11 +268,8 @@ void Simulation<Dim>::Stepper::break_springs() {
         return;
     }
     const std::vector<std::size_t> bodies = energy_.attachments->break_springs();
-    for (const std::size_t body : bodies) {
-        islands_.wake(static_cast<int>(body));
-    }
     if (!bodies.empty()) {
-        number_dofs_of_the_awake();
+        wake(bodies);
         energy_.sum.invalidate();
         evaluate_current();
     }

@@ -89,6 +89,7 @@ private:
     [[nodiscard]] Attempts advance(double time, double h, int depth);
     [[nodiscard]] Attempts attempt(double time, double h, bool is_damped);
     [[nodiscard]] Method choose_method() const;
+    [[nodiscard]] double negligible_correction() const;
     void begin(const std::shared_ptr<const StepProblem<Dim>>& problem, double h, Method method);
     [[nodiscard]] NewtonReport solve(const StepProblem<Dim>& problem, Method method);
     [[nodiscard]] NewtonReport minimize(Method method);
@@ -108,6 +109,7 @@ private:
     void hold_and_release();
     void forget_history() { history_ = {}; }
     void evaluate_current();
+    void evaluate_anew();
     void refuse_crossings(const Positions<Dim>& positions) const;
     void add_work(StepReport& report);
     [[nodiscard]] std::vector<std::uint8_t> broken_springs() const;
@@ -126,6 +128,7 @@ private:
     Islands<Dim> islands_;
     std::vector<bool> asleep_;  // bodies that have no dofs now
     double extent_;             // diagonal of the box around all bodies at rest, m
+    double smallest_;           // the least diagonal of the boxes around bodies at rest, m
     double thinnest_;           // shortest side of the boxes around bodies at rest, m
     State<Dim> current_;
     State<Dim> next_;

@@ -1,13 +1,13 @@
 #include "playground.h"
 
 #include "handles.h"
-#include "run/run_files.h"
 #include "scene/scene_meshes.h"
 
 #include <pent/machine_memory.h>
 #include <pent/obstacles_file.h>
 #include <pent/output_file.h>
 #include <pent/pent_file.h>
+#include <pent/run_files.h>
 #include <pent/runs/scene_file.h>
 #include <pent/with_dimension.h>
 
@@ -102,7 +102,7 @@ std::unique_ptr<Simulation<Dim>> open(const Scene& scene, const pent_simulation*
 // The scene with the meshes that are beside it, as placed.
 Scene as_written(Scene scene) {
     for (simulator::Body& body : scene.bodies) {
-        body.mesh = runs::mesh_file(body.name);
+        body.mesh = mesh_file(body.name);
         body.place = simulator::Placement();
         body.place.translate.setZero(scene.dimension);
     }
@@ -168,21 +168,21 @@ int play_begin_run(const pent_simulation* simulation, const char* folder) {
     return with(simulation, -1, [&](auto& held, Opened& /*opened*/) {
         require(folder, "folder");
         const fs::path run = folder;
-        for (const char* part : {"meshes", "frames"}) {
+        for (const char* part : {kMeshesFolder, kFramesFolder}) {
             fs::create_directories(run / part);
         }
         const Scene& scene = held.scene();
-        write_text(run / runs::kSceneFile, runs::scene_text(as_written(scene)));
+        write_text(run / kSceneFile, runs::scene_text(as_written(scene)));
         for (int body = 0; body < held.body_count(); ++body) {
             const std::string& name = scene.bodies[static_cast<std::size_t>(body)].name;
-            write_mesh(run / runs::mesh_file(name), held.mesh(body), {.created_by = kCreatedBy});
+            write_mesh(run / mesh_file(name), held.mesh(body), {.created_by = kCreatedBy});
         }
         const bool do_move = std::any_of(scene.obstacles.begin(), scene.obstacles.end(),
                                          [](const auto& one) { return !one.motion.empty(); });
         if (do_move) {
-            fs::create_directories(run / "obstacles");
+            fs::create_directories(run / kObstaclesFolder);
         } else if (!scene.obstacles.empty()) {
-            write_obstacles(run / runs::kObstaclesFile, held.obstacles());
+            write_obstacles(run / kObstaclesFile, held.obstacles());
         }
         return 0;
     });
@@ -200,14 +200,14 @@ int play_add_frame(const pent_simulation* simulation, const char* folder, int fr
             file.velocities = held.velocities(body);
             file.contact_forces = held.contact_forces(body);
             file.mesh_name = name + ".pent";
-            file.mesh_crc = read_info(run / runs::mesh_file(name)).crc32c;
+            file.mesh_crc = read_info(run / mesh_file(name)).crc32c;
             file.frame = static_cast<std::uint64_t>(frame);
             file.step = held.step_count();
             file.time = held.time();
-            write_frame(run / runs::frame_file(name, frame), file, {.created_by = kCreatedBy});
+            write_frame(run / frame_file(name, frame), file, {.created_by = kCreatedBy});
         }
-        if (fs::exists(run / "obstacles")) {
-            write_obstacles(run / runs::moved_obstacles_file(frame), held.obstacles());
+        if (fs::exists(run / kObstaclesFolder)) {
+            write_obstacles(run / obstacles_file(frame), held.obstacles());
         }
         return 0;
     });

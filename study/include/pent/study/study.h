@@ -1,5 +1,7 @@
 #pragma once
 
+#include <pent/simulator/words.h>
+
 #include <cstdint>
 #include <filesystem>
 #include <functional>
@@ -77,10 +79,13 @@ struct Errors {
     std::int64_t refused = 0;  ///< Steps that were thrown away and cut.
 };
 
+/// How a unit of a study ended (units.h). None: it has not been run to its end.
+enum class UnitVerdict { None, Finished, Diverged, Refused, Stopped };
+
 struct Result {
     Settings settings = {};
-    std::string verdict = {};  ///< "finished", "diverged" or "refused".
-    std::string message = {};  ///< Why it did not finish.
+    UnitVerdict verdict = UnitVerdict::None;  ///< Finished, Diverged or Refused.
+    std::string message = {};                 ///< Why it did not finish.
     Cost cost = {};
     Errors errors = {};
 };
@@ -143,3 +148,13 @@ struct StudyCallbacks {
                                      const std::filesystem::path& where);
 
 }  // namespace pent::study
+
+/// As they stand in study.json, study.csv and in the records of units.
+template <>
+inline constexpr std::array pent::simulator::kWords<pent::study::UnitVerdict> = {
+    Word<pent::study::UnitVerdict>{pent::study::UnitVerdict::None, ""},
+    Word<pent::study::UnitVerdict>{pent::study::UnitVerdict::Finished, "finished"},
+    Word<pent::study::UnitVerdict>{pent::study::UnitVerdict::Diverged, "diverged"},
+    Word<pent::study::UnitVerdict>{pent::study::UnitVerdict::Refused, "refused"},
+    Word<pent::study::UnitVerdict>{pent::study::UnitVerdict::Stopped, "stopped"},
+};

@@ -37,7 +37,7 @@ struct StudyState {
 
 /// How the run of a unit ended.
 struct UnitOutcome {
-    std::string verdict = {};  ///< "finished", "diverged", "refused" or "stopped".
+    UnitVerdict verdict = UnitVerdict::None;
     std::string message = {};  ///< Why it did not finish.
     bool has_failed = false;   ///< It was run and refused: no result, try again.
 };
