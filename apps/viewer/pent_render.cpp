@@ -157,7 +157,7 @@ Verdict render(Program& program, Arguments& arguments) {
     options.frames = viewer::select_frames(
         run.frames,
         is_one_picture && arguments.view.frames.empty() ? "last" : arguments.view.frames);
-    options.color = to_color(arguments.view);
+    options.color = viewer::coloring_of(arguments.view.color);
     options.projection = to_projection(arguments.view);
     options.has_floor = !arguments.no_floor;
     options.has_obstacles = !arguments.no_obstacles;
@@ -182,7 +182,7 @@ Verdict render(Program& program, Arguments& arguments) {
         line += (&file == &report.files.front() ? " in " : ", ") + file;
     }
     if (options.color != viewer::ColorBy::Body) {
-        line += "; " + std::string(viewer::title_of(options.color)) + ": "
+        line += "; " + viewer::title_of(options.color, run.dimension) + ": "
                 + viewer::short_number(report.range.low) + " to "
                 + viewer::short_number(report.range.high);
     }

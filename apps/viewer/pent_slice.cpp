@@ -65,7 +65,7 @@ Verdict slice(Program& program, const Arguments& arguments) {
     options.sections = to_sections(arguments.view);
     options.frames = viewer::select_frames(run.frames, arguments.view.frames);
     options.format = to_format(arguments.format);
-    options.color = to_color(arguments.view);
+    options.color = viewer::coloring_of(arguments.view.color);
     options.keep_degenerate = arguments.keep_degenerate;
     options.projection = to_projection(arguments.view);
     options.has_boundary = arguments.has_boundary;

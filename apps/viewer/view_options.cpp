@@ -154,25 +154,10 @@ void add_view_options(CLI::App& cli, ViewArguments& arguments) {
                    "Distance of the eye of a perspective from the slice, m; default: three times "
                    "the reach of the bodies")
         ->type_name("D");
-    std::vector<std::string> quantities;
-    for (const viewer::ColorBy by : viewer::all_colorings()) {
-        quantities.emplace_back(viewer::name_of(by));
-    }
     cli.add_option("--color", arguments.color,
-                   "Color by body, w, speed, strain, force (of contact), reaction or "
-                   "energy_density; default: body")
-        ->check(CLI::IsMember(quantities).description(""))
+                   "Color by body, w, speed, strain, force (of contact), reaction, "
+                   "energy_density, or a quantity of frames or meshes by its name; default: body")
         ->type_name("WHAT");
-}
-
-viewer::ColorBy to_color(const ViewArguments& arguments) {
-    using viewer::ColorBy;
-    for (const ColorBy by : viewer::all_colorings()) {
-        if (arguments.color == viewer::name_of(by)) {
-            return by;
-        }
-    }
-    return ColorBy::Body;
 }
 
 std::optional<viewer::ProjectionOptions> to_projection(const ViewArguments& arguments) {

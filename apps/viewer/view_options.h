@@ -49,9 +49,6 @@ void add_view_options(CLI::App& cli, ViewArguments& arguments);
 /// The hyperplanes meant. Throws an Error that says what was found and what was expected.
 [[nodiscard]] viewer::SectionOptions to_sections(const ViewArguments& arguments);
 
-/// What the color tells.
-[[nodiscard]] viewer::ColorBy to_color(const ViewArguments& arguments);
-
 /// The projection meant, if any. Throws an Error as to_sections does.
 [[nodiscard]] std::optional<viewer::ProjectionOptions> to_projection(
     const ViewArguments& arguments);

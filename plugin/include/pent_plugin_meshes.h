@@ -23,6 +23,26 @@ typedef struct pent_mesh_info {
     uint32_t crc32c;        /**< The checksum that the file states; else 0. */
 } pent_mesh_info;
 
+/** A quantity of vertices, or of cells. */
+typedef struct pent_field {
+    const char* name;
+    const double* values; /**< rows x vertices, or rows x cells. */
+    int32_t rows;         /**< 1, or dimension for a vector. */
+} pent_field;
+
+/** What there may be beside a mesh, as docs/pent-format.md has it; 0 and NULL for what is not. */
+typedef struct pent_mesh_extras {
+    const pent_field* vertex_fields; /**< With names that differ from one another. */
+    int64_t vertex_field_count;
+    const pent_field* cell_fields; /**< The same of cells. */
+    int64_t cell_field_count;
+    const uint32_t* facets; /**< Those that have labels: dimension x facets, outward. */
+    int64_t facet_count;
+    const uint16_t* labels;        /**< One a facet. */
+    const uint16_t* base_labels;   /**< What the base mesh has there, one a facet. */
+    const uint8_t* bisection_tags; /**< One a cell. */
+} pent_mesh_extras;
+
 typedef struct pent_frame_info {
     int32_t dimension;
     int64_t vertices;
@@ -36,12 +56,6 @@ typedef struct pent_frame_info {
     uint64_t step;                /**< Steps taken so far. */
     double time;                  /**< s. */
 } pent_frame_info;
-
-typedef struct pent_field {
-    const char* name;
-    const double* values; /**< rows x vertices. */
-    int32_t rows;         /**< 1, or dimension for a vector. */
-} pent_field;
 
 /** A turn of bodies about the origin that takes axis `from` towards axis `to`; 0 to 3 are x y z w.
  */
@@ -61,17 +75,21 @@ typedef struct pent_hyperplane {
 /** A .pent file with a mesh, read and validated. */
 PENT_PLUGIN_API pent_stored_mesh* pent_read_mesh(const char* path);
 
-/** A mesh of arrays, copied, and validated as files are: indices in range, cells positively
- * oriented and not degenerate, numbers finite. */
-PENT_PLUGIN_API pent_stored_mesh* pent_store_mesh(int dimension, const pent_mesh* mesh);
+/** A mesh of arrays, and what is beside it unless that is NULL, copied, and validated as files are:
+ * indices in range, cells positively oriented and not degenerate, numbers finite, quantities with
+ * names that a file can have. */
+PENT_PLUGIN_API pent_stored_mesh* pent_store_mesh(int dimension,
+                                                  const pent_mesh* mesh,
+                                                  const pent_mesh_extras* extras);
 
-/** Writes a .pent file, with what the file of a mesh that was read has beside it. `created_by` is
+/** Writes a .pent file, with what is beside the mesh. `created_by` is
  * one line of at most 4077 bytes; `is_ascii` 0 for binary. */
 PENT_PLUGIN_API int pent_write_mesh(const pent_stored_mesh* mesh,
                                     const char* path,
                                     const char* created_by,
                                     int is_ascii);
 PENT_PLUGIN_API int pent_mesh_info_of(const pent_stored_mesh* mesh, pent_mesh_info* info);
+PENT_PLUGIN_API int pent_mesh_extras_of(const pent_stored_mesh* mesh, pent_mesh_extras* extras);
 
 /** The facets of its boundary: `dimension` indices each, outward, and how many there are. An error
  * where cells do not fit together. */
@@ -101,7 +119,7 @@ PENT_PLUGIN_API const double* pent_mesh_strain(const pent_stored_mesh* mesh,
                                                const double* positions);
 
 /** The colors in which pent-render shows a quantity ("body", "w", "speed", "strain", "force",
- * "reaction", "energy_density"): red, green, blue a value, 0..1, linear light. `low` and `high` get
+ * "reaction", "energy_density", or any other by its name): red, green, blue a value, 0..1, linear light. `low` and `high` get
  * the first and the last color; of "body" values are numbers of bodies, from 0. All numbers, and
  * high - low, are finite. They hold until this thread asks again. */
 PENT_PLUGIN_API const float* pent_colors(

@@ -8,7 +8,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <string_view>
 #endif
 
 using namespace pent;
@@ -17,17 +16,6 @@ using namespace pent::plugin;
 #ifdef PENT_HAS_VIEWER
 
 namespace {
-
-viewer::ColorBy coloring_of(std::string_view quantity) {
-    std::string known;
-    for (const viewer::ColorBy by : viewer::all_colorings()) {
-        if (viewer::name_of(by) == quantity) {
-            return by;
-        }
-        known += (known.empty() ? "" : ", ") + std::string(viewer::name_of(by));
-    }
-    throw Error("quantity: found \"" + std::string(quantity) + "\"; expected one of " + known);
-}
 
 Eigen::Matrix3Xf body_colors(const Eigen::VectorXd& numbers) {
     Eigen::Matrix3Xf colors(3, numbers.size());
@@ -50,7 +38,7 @@ const float* pent_colors(
         if (count < 0) {
             throw Error("count is " + std::to_string(count) + "; expected 0 or more");
         }
-        const viewer::ColorBy by = coloring_of(quantity);
+        const viewer::ColorBy by = viewer::coloring_of(quantity);
         const Eigen::VectorXd given = array<1>(values, count, "values").transpose();
         if (!given.allFinite() || !std::isfinite(high - low)) {
             throw Error("values, low, high and what lies between must be finite");

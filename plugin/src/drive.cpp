@@ -145,7 +145,7 @@ int pent_add_body(pent_simulation* simulation, const char* text, const pent_mesh
         constexpr int kDim = kDimOf<std::remove_reference_t<decltype(held)>>;
         require(mesh, "mesh");
         const simulator::Body body = scene_of(text, "body", kDim, "").bodies[0];
-        held.add_body(body, mesh_of<kDim>(*mesh, "mesh of \"" + body.name + "\""));
+        held.add_body(body, mesh_of_body<kDim>(held.scene(), body, *mesh));
         opened.boundaries = std::make_shared<Boundaries>();
         return 0;
     });

@@ -1,5 +1,7 @@
 #include "handles.h"
 
+#include <pent/runs/scene_meshes.h>
+
 #include <algorithm>
 #include <atomic>
 #include <limits>
@@ -125,8 +127,22 @@ SimplexMesh<Dim> mesh_of(const pent_mesh& mesh, const std::string& name) {
     return made;
 }
 
+template <int Dim>
+SimplexMesh<Dim> mesh_of_body(const Scene& scene,
+                              const simulator::Body& body,
+                              const pent_mesh& mesh) {
+    const std::string name = "mesh of \"" + body.name + "\"";
+    SimplexMesh<Dim> made = mesh_of<Dim>(mesh, name);
+    validate(made, name);
+    std::vector<std::string> warnings;  // for which this interface has no place
+    runs::judge_mesh(scene, body, made, warnings);
+    return made;
+}
+
 template SimplexMesh<2> mesh_of(const pent_mesh&, const std::string&);
 template SimplexMesh<3> mesh_of(const pent_mesh&, const std::string&);
 template SimplexMesh<4> mesh_of(const pent_mesh&, const std::string&);
+template SimplexMesh<3> mesh_of_body(const Scene&, const simulator::Body&, const pent_mesh&);
+template SimplexMesh<4> mesh_of_body(const Scene&, const simulator::Body&, const pent_mesh&);
 
 }  // namespace pent::plugin

@@ -67,6 +67,8 @@ struct StoredMesh {
     std::variant<SimplexMesh<2>, SimplexMesh<3>, SimplexMesh<4>> mesh;
     // What its file has beside it, of the same dimension.
     std::variant<MeshExtras<2>, MeshExtras<3>, MeshExtras<4>> extras;
+    std::vector<pent_field> vertex_fields;  // those of the extras, as a host sees them
+    std::vector<pent_field> cell_fields;
     std::string name;  // in messages
     std::string created_by;
     std::uint32_t crc32c = 0;
@@ -185,6 +187,12 @@ template <int Dim>
 /// @param name  In messages.
 template <int Dim>
 [[nodiscard]] SimplexMesh<Dim> mesh_of(const pent_mesh& mesh, const std::string& name);
+
+/// The same for a body of a scene, checked as one that pent_open_file() reads.
+template <int Dim>
+[[nodiscard]] SimplexMesh<Dim> mesh_of_body(const Scene& scene,
+                                            const simulator::Body& body,
+                                            const pent_mesh& mesh);
 
 /// The boundary facets of a stored mesh, Dim indices each. Throws an Error where cells do not fit
 /// together.

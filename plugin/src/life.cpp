@@ -3,8 +3,8 @@
 #include "handles.h"
 
 #include <pent/machine_memory.h>
-#include <pent/pent_file.h>
 #include <pent/runs/scene_file.h>
+#include <pent/runs/scene_meshes.h>
 #include <pent/with_dimension.h>
 
 #include <algorithm>
@@ -16,17 +16,21 @@ using namespace pent::plugin;
 namespace {
 
 template <int Dim>
+std::vector<SimplexMesh<Dim>> meshes_of(const Scene& scene, const pent_mesh* meshes) {
+    std::vector<SimplexMesh<Dim>> all;
+    for (const simulator::Body& body : scene.bodies) {
+        all.push_back(mesh_of_body<Dim>(scene, body, meshes[all.size()]));
+    }
+    return all;
+}
+
+template <int Dim>
 std::unique_ptr<Simulation<Dim>> make_simulation(const Scene& scene,
                                                  const pent_mesh* meshes,
                                                  int threads) {
-    std::vector<SimplexMesh<Dim>> all;
-    for (const simulator::Body& body : scene.bodies) {
-        all.push_back(meshes != nullptr
-                          ? mesh_of<Dim>(meshes[all.size()], "mesh of \"" + body.name + "\"")
-                          : read_mesh<Dim>(body.mesh).mesh);
-    }
     return std::make_unique<Simulation<Dim>>(
-        scene, std::move(all),
+        scene,
+        meshes != nullptr ? meshes_of<Dim>(scene, meshes) : runs::read_meshes<Dim>(scene).meshes,
         simulator::SimulationOptions{.threads = threads, .memory = machine_memory()});
 }
 

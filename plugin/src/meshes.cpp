@@ -4,7 +4,9 @@
 
 #include <pent/facets.h>
 #include <pent/runs/scene_file.h>
+#include <pent/validate_extras.h>
 
+#include <algorithm>
 #include <utility>
 
 using namespace pent;
@@ -66,6 +68,68 @@ pent_mesh c_mesh(const SimplexMesh<Dim>& mesh) {
             .fibers = data_or_null(mesh.fibers)};
 }
 
+pent_field c_field(const VertexField& field) {
+    return {.name = field.name.c_str(),
+            .values = field.values.data(),
+            .rows = static_cast<int32_t>(field.values.rows())};
+}
+
+std::vector<pent_field> c_fields(const std::vector<VertexField>& fields) {
+    std::vector<pent_field> seen(fields.size());
+    std::transform(fields.begin(), fields.end(), seen.begin(), c_field);
+    return seen;
+}
+
+std::vector<VertexField> fields_of(const pent_field* fields,
+                                   std::int64_t field_count,
+                                   Eigen::Index count,
+                                   const char* name) {
+    std::vector<VertexField> copied;
+    for (std::int64_t i = 0; i < field_count; ++i) {
+        require(fields, name);
+        const pent_field& field = fields[i];
+        require(field.name, "the name of a field");
+        require(field.values, field.name);
+        if (field.rows < 1 || field.rows > 4) {
+            throw Error(std::string(field.name) + " has " + std::to_string(field.rows)
+                        + " rows, expected 1, or the dimension for a vector");
+        }
+        copied.push_back(
+            {field.name, Eigen::Map<const Eigen::MatrixXd>(field.values, field.rows, count)});
+    }
+    return copied;
+}
+
+template <typename Value>
+std::vector<Value> copied(const Value* values, Eigen::Index count) {
+    return values == nullptr ? std::vector<Value>() : std::vector<Value>(values, values + count);
+}
+
+template <int Dim>
+MeshExtras<Dim> extras_of(const pent_mesh_extras& extras, const SimplexMesh<Dim>& mesh) {
+    MeshExtras<Dim> made;
+    made.vertex_fields = fields_of(extras.vertex_fields, extras.vertex_field_count,
+                                   mesh.vertex_count(), "vertex_fields");
+    made.cell_fields =
+        fields_of(extras.cell_fields, extras.cell_field_count, mesh.cell_count(), "cell_fields");
+    if (extras.facet_count > 0) {
+        require(extras.facets, "facets");
+        made.boundary = Eigen::Map<const Simplices<Dim>>(extras.facets, Dim, extras.facet_count);
+        made.labels = copied(extras.labels, extras.facet_count);
+        made.base_labels = copied(extras.base_labels, extras.facet_count);
+    }
+    made.bisection_tags = copied(extras.bisection_tags, mesh.cell_count());
+    return made;
+}
+
+// What is beside the mesh that is stored, which it fits.
+template <int Dim>
+void set_extras(MeshExtras<Dim> extras, StoredMesh& stored) {
+    const auto& kept = stored.extras.emplace<MeshExtras<Dim>>(std::move(extras));
+    stored.vertex_fields = c_fields(kept.vertex_fields);
+    stored.cell_fields = c_fields(kept.cell_fields);
+}
+
 }  // namespace
 
 template <int Dim>
@@ -97,7 +161,7 @@ pent_stored_mesh* pent_read_mesh(const char* path) {
         for_dimension(info.dimension, [&](auto dimension) {
             auto file = read_mesh<decltype(dimension)::value>(path);
             stored->mesh = std::move(file.mesh);
-            stored->extras = std::move(file.extras);
+            set_extras(std::move(file.extras), *stored);
         });
         stored->name = path;
         stored->created_by = info.created_by;
@@ -106,7 +170,9 @@ pent_stored_mesh* pent_read_mesh(const char* path) {
     });
 }
 
-pent_stored_mesh* pent_store_mesh(int dimension, const pent_mesh* mesh) {
+pent_stored_mesh* pent_store_mesh(int dimension,
+                                  const pent_mesh* mesh,
+                                  const pent_mesh_extras* extras) {
     return guarded<pent_stored_mesh*>(nullptr, [&] {
         require(mesh, "mesh");
         auto stored = std::make_shared<StoredMesh>();
@@ -115,8 +181,13 @@ pent_stored_mesh* pent_store_mesh(int dimension, const pent_mesh* mesh) {
             constexpr int kDim = decltype(constant)::value;
             SimplexMesh<kDim> made = mesh_of<kDim>(*mesh, stored->name);
             validate(made, stored->name);
+            MeshExtras<kDim> beside;
+            if (extras != nullptr) {
+                beside = extras_of(*extras, made);
+                validate_extras(made, beside, stored->name);
+            }
             stored->mesh = std::move(made);
-            stored->extras = MeshExtras<kDim>();
+            set_extras(std::move(beside), *stored);
         });
         return meshes().add(std::move(stored));
     });
@@ -146,6 +217,23 @@ int pent_mesh_info_of(const pent_stored_mesh* mesh, pent_mesh_info* info) {
                  .hypervolume = total_volume(held),
                  .created_by = stored.created_by.c_str(),
                  .crc32c = stored.crc32c};
+        return 0;
+    });
+}
+
+int pent_mesh_extras_of(const pent_stored_mesh* mesh, pent_mesh_extras* extras) {
+    return with_mesh(mesh, -1, [&]<int Dim>(const SimplexMesh<Dim>&, StoredMesh& stored) {
+        require(extras, "extras");
+        const auto& held = std::get<MeshExtras<Dim>>(stored.extras);
+        *extras = {.vertex_fields = data_or_null(stored.vertex_fields),
+                   .vertex_field_count = static_cast<int64_t>(stored.vertex_fields.size()),
+                   .cell_fields = data_or_null(stored.cell_fields),
+                   .cell_field_count = static_cast<int64_t>(stored.cell_fields.size()),
+                   .facets = data_or_null(held.boundary),
+                   .facet_count = held.boundary.cols(),
+                   .labels = data_or_null(held.labels),
+                   .base_labels = data_or_null(held.base_labels),
+                   .bisection_tags = data_or_null(held.bisection_tags)};
         return 0;
     });
 }
@@ -209,10 +297,7 @@ int pent_frame_field(const pent_stored_frame* frame, int64_t field, pent_field* 
             throw Error("field " + std::to_string(field) + " of " + std::to_string(count)
                         + "; count from 0");
         }
-        const VertexField& held = fields[static_cast<std::size_t>(field)];
-        *found = {.name = held.name.c_str(),
-                  .values = held.values.data(),
-                  .rows = static_cast<int32_t>(held.values.rows())};
+        *found = c_field(fields[static_cast<std::size_t>(field)]);
         return 0;
     });
 }

@@ -29,10 +29,12 @@ def needed(name: str) -> Any:
 
 def _simplices(mesh: Mesh) -> tuple[Any, Any, dict[str, Any]]:
     """Points of up to three coordinates, triangles or tetrahedra, and what else points have."""
-    if mesh.dimension < 4:
-        return np.array(mesh.points), mesh.cells.astype(np.int64), {}
     points = np.array(mesh.points)
-    return points[:, :3], mesh.boundary().astype(np.int64), {"w": points[:, 3].copy()}
+    data = {name: np.array(values) for name, values in mesh.vertex_fields.items()}
+    if mesh.dimension < 4:
+        return points, mesh.cells.astype(np.int64), data
+    data["w"] = points[:, 3].copy()
+    return points[:, :3], mesh.boundary().astype(np.int64), data
 
 
 def mesh_to_meshio(mesh: Mesh) -> Any:

@@ -69,6 +69,22 @@ class Field(ctypes.Structure):
     _fields_ = [("name", c_char_p), ("values", c_void_p), ("rows", c_int32)]
 
 
+class MeshExtras(ctypes.Structure):
+    """`pent_mesh_extras`."""
+
+    _fields_ = [
+        ("vertex_fields", POINTER(Field)),
+        ("vertex_field_count", c_int64),
+        ("cell_fields", POINTER(Field)),
+        ("cell_field_count", c_int64),
+        ("facets", c_void_p),
+        ("facet_count", c_int64),
+        ("labels", c_void_p),
+        ("base_labels", c_void_p),
+        ("bisection_tags", c_void_p),
+    ]
+
+
 class StepReport(ctypes.Structure):
     """`pent_step_report`."""
 
@@ -210,9 +226,10 @@ _FUNCTIONS: dict[str, tuple[Any, tuple[Any, ...]]] = {
     "pent_add_obstacle": (c_int, (c_void_p, c_char_p)),
     "pent_remove_obstacle": (c_int, (c_void_p, c_int)),
     "pent_read_mesh": (c_void_p, (c_char_p,)),
-    "pent_store_mesh": (c_void_p, (c_int, POINTER(MeshArrays))),
+    "pent_store_mesh": (c_void_p, (c_int, POINTER(MeshArrays), POINTER(MeshExtras))),
     "pent_write_mesh": (c_int, (c_void_p, c_char_p, c_char_p, c_int)),
     "pent_mesh_info_of": (c_int, (c_void_p, POINTER(MeshInfo))),
+    "pent_mesh_extras_of": (c_int, (c_void_p, POINTER(MeshExtras))),
     "pent_mesh_boundary": (c_void_p, (c_void_p, _COUNT)),
     "pent_slice_mesh": (c_int, (c_void_p, c_void_p, c_void_p, c_double, POINTER(Surface))),
     "pent_slice_turned": (

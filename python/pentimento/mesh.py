@@ -6,6 +6,7 @@ import ctypes
 import html
 import math
 import os
+from collections.abc import Mapping
 from typing import Any
 
 import numpy as np
@@ -13,7 +14,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from . import _interop
 from ._arrays import Floats, Indices, address_of, copy, floats, indices, real, text, view
-from ._library import Handle, MeshArrays, MeshInfo, library
+from ._library import Field, Handle, MeshArrays, MeshExtras, MeshInfo, library
 from ._library import Surface as CSurface
 from ._rotations import Rotations, hyperplane
 from ._version import __version__
@@ -32,7 +33,7 @@ class Mesh:
     anybody has one, also without the mesh.
     """
 
-    __slots__ = ("_handle", "_info", "report", "__weakref__")
+    __slots__ = ("_handle", "_info", "_extras", "report", "__weakref__")
 
     report: dict[str, Any] | None
     """What pent-mesh reported, of a mesh that make_mesh() made."""
@@ -47,6 +48,12 @@ class Mesh:
         layers: ArrayLike | None = None,
         parents: ArrayLike | None = None,
         fibers: ArrayLike | None = None,
+        vertex_fields: Mapping[str, ArrayLike] | None = None,
+        cell_fields: Mapping[str, ArrayLike] | None = None,
+        facets: ArrayLike | None = None,
+        labels: ArrayLike | None = None,
+        base_labels: ArrayLike | None = None,
+        bisection_tags: ArrayLike | None = None,
     ) -> None:
         """A mesh of arrays, which are copied.
 
@@ -57,6 +64,14 @@ class Mesh:
                          layer.
         parents  (cells,): which quadratic cell each is a child of.
         fibers   (cells, dimension): directions, of any length; zero for none.
+
+        Beside the mesh, for files and for who looks at it:
+
+        vertex_fields, cell_fields  Quantities by their names, of letters, digits and "_": an array
+                         (vertices,) or (cells,) each, or with a column an axis for a vector.
+        facets   (facets, dimension): those of the boundary that have labels, outward.
+        labels, base_labels  (facets,), 0 to 65535: theirs, and what the base mesh has there.
+        bisection_tags  (cells,), 0 to 255.
 
         Raises a TypeError or ValueError for arrays of other kinds or shapes, an IndexError for
         numbers out of range, and an Error for cells that are not valid.
@@ -82,7 +97,14 @@ class Mesh:
             len(corners),
             *[address_of(array) for array in optional.values()],
         )
-        self._take(library().pent_store_mesh(dimension, ctypes.byref(arrays)))
+        beside = _Beside(dimension, count, len(corners))
+        beside.add_fields("vertex", vertex_fields)
+        beside.add_fields("cell", cell_fields)
+        beside.add_facets(facets, labels, base_labels)
+        beside.add("bisection_tags", _labels(bisection_tags, per_cell, "bisection_tags", np.uint8))
+        self._take(
+            library().pent_store_mesh(dimension, ctypes.byref(arrays), ctypes.byref(beside.extras))
+        )
 
     @classmethod
     def read(cls, path: Path) -> Mesh:
@@ -94,15 +116,17 @@ class Mesh:
     def _take(self, number: int) -> None:
         self._handle = Handle(number, library().pent_free_mesh)
         self._info = MeshInfo()
+        self._extras = MeshExtras()
         self.report = None
         library().pent_mesh_info_of(number, ctypes.byref(self._info))
+        library().pent_mesh_extras_of(number, ctypes.byref(self._extras))
 
     def write(self, path: Path, *, ascii: bool = False, created_by: str | None = None) -> None:
         """Writes a `.pent` file, by default in the name of the program that made the mesh.
 
-        What the file of a mesh that was read has beside it goes along: quantities, labels of the
-        boundary, tags of bisection. The same mesh, name and kind give the same bytes. Raises an
-        Error where the file cannot be written; there is none then.
+        What is beside the mesh goes along: quantities, labels of the boundary, tags of bisection.
+        The same mesh, name and kind give the same bytes. Raises an Error where the file cannot be
+        written; there is none then.
         """
         name = self.created_by or f"pentimento {__version__}" if created_by is None else created_by
         library().pent_write_mesh(
@@ -166,6 +190,38 @@ class Mesh:
     def fibers(self) -> Floats | None:
         """(cells, dimension), or None."""
         return self._optional("fibers", (self.cell_count, self.dimension), np.float64)
+
+    @property
+    def vertex_fields(self) -> dict[str, Floats]:
+        """Quantities of the vertices by their names: (vertices,), or (vertices, dimension) for
+        vectors."""
+        return self._fields("vertex", self.vertex_count)
+
+    @property
+    def cell_fields(self) -> dict[str, Floats]:
+        """Quantities of the cells by their names: (cells,), or (cells, dimension) for vectors."""
+        return self._fields("cell", self.cell_count)
+
+    @property
+    def facets(self) -> Indices | None:
+        """Facets of the boundary that have labels, outward, (facets, dimension), or None;
+        boundary() has all."""
+        return self._beside("facets", (self._extras.facet_count, self.dimension), np.uint32)
+
+    @property
+    def labels(self) -> NDArray[np.uint16] | None:
+        """(facets,), or None. What space-time bodies mean by 1 to 5: docs/pent-format.md."""
+        return self._beside("labels", (self._extras.facet_count,), np.uint16)
+
+    @property
+    def base_labels(self) -> NDArray[np.uint16] | None:
+        """(facets,): what the base mesh has there, or None."""
+        return self._beside("base_labels", (self._extras.facet_count,), np.uint16)
+
+    @property
+    def bisection_tags(self) -> NDArray[np.uint8] | None:
+        """(cells,), or None."""
+        return self._beside("bisection_tags", (self.cell_count,), np.uint8)
 
     @property
     def hypervolume(self) -> float:
@@ -236,6 +292,26 @@ class Mesh:
         found: Floats = copy(address, (self.vertex_count,), np.float64)
         return found
 
+    def quantities(self) -> dict[str, Floats]:
+        """All quantities at the vertices: vertex_fields, and of cell_fields of other names the mean
+        over the cells at each vertex by their volume. What a View has of the mesh."""
+        found = self.vertex_fields
+        of_cells = {name: kept for name, kept in self.cell_fields.items() if name not in found}
+        if not of_cells:
+            return found
+        corners = self.cells.ravel()
+        weights = np.repeat(self.cell_hypervolumes(), self.dimension + 1)
+        whole = np.bincount(corners, weights, self.vertex_count)
+        whole[whole == 0] = 1  # vertices of no cell have zeros
+        for name, values in of_cells.items():
+            columns = np.repeat(values.reshape(self.cell_count, -1), self.dimension + 1, axis=0)
+            means = [
+                np.bincount(corners, weights * column, self.vertex_count) / whole
+                for column in columns.T
+            ]
+            found[name] = np.column_stack(means).reshape(-1, *values.shape[1:])
+        return found
+
     def cell_hypervolumes(self) -> Floats:
         """(cells,), m^dimension, all above 0."""
         determinants: Floats = np.linalg.det(self._edges())
@@ -259,7 +335,8 @@ class Mesh:
 
     def to_meshio(self) -> Any:
         """A meshio.Mesh: of triangles or tetrahedra in two or three dimensions, of the boundary's
-        tetrahedra with w as point data in four. Raises an ImportError where it is not installed."""
+        tetrahedra with w as point data in four; vertex_fields are point data, too. Raises an
+        ImportError where it is not installed."""
         return _interop.mesh_to_meshio(self)
 
     @classmethod
@@ -285,8 +362,8 @@ class Mesh:
         return self.slice().to_trimesh()
 
     def __reduce__(self) -> tuple[Any, ...]:
-        arrays = (self.regions, self.columns, self.layers, self.parents, self.fibers)
-        return _unpickled, (np.array(self.points), np.array(self.cells), arrays)
+        others = {name: getattr(self, name) for name in _OTHERS}
+        return _unpickled, (np.array(self.points), np.array(self.cells), others)
 
     def __repr__(self) -> str:
         return (
@@ -318,6 +395,20 @@ class Mesh:
     ) -> NDArray[Any] | None:
         return None if getattr(self._info.arrays, name) is None else self._seen(name, shape, dtype)
 
+    def _beside(
+        self, name: str, shape: tuple[int, ...], dtype: type[Any]
+    ) -> NDArray[Any] | None:
+        address = getattr(self._extras, name)
+        return None if address is None else view(address, shape, dtype, self._handle)
+
+    def _fields(self, of: str, count: int) -> dict[str, Floats]:
+        found: dict[str, Floats] = {}
+        fields = getattr(self._extras, f"{of}_fields")
+        for number in range(getattr(self._extras, f"{of}_field_count")):
+            name, values = seen_field(fields[number], count, self._handle)
+            found[name] = values
+        return found
+
     def _edges(self) -> Floats:
         corners = self.points[self.cells]
         edges: Floats = corners[:, 1:] - corners[:, :1]
@@ -328,6 +419,12 @@ def c_arrays(mesh: Mesh) -> MeshArrays:
     """As the C interface takes a mesh; valid as long as the mesh is."""
     arrays: MeshArrays = mesh._info.arrays
     return arrays
+
+
+def seen_field(field: Field, count: int, owner: Handle) -> tuple[str, Floats]:
+    """The name of a quantity, and a view of it: (count,), or (count, rows) for vectors."""
+    shape = (count,) if field.rows == 1 else (count, field.rows)
+    return field.name.decode("utf-8", "replace"), view(field.values, shape, np.float64, owner)
 
 
 def path_bytes(path: Path) -> bytes:
@@ -361,6 +458,57 @@ def _labels(
     return indices(value, shape, name, int(np.iinfo(dtype).max) + 1, dtype)
 
 
-def _unpickled(points: Floats, cells: Indices, others: tuple[Any, ...]) -> Mesh:
-    names = ("regions", "columns", "layers", "parents", "fibers")
-    return Mesh(points, cells, **dict(zip(names, others)))
+_OTHERS = (
+    "regions", "columns", "layers", "parents", "fibers", "vertex_fields", "cell_fields", "facets",
+    "labels", "base_labels", "bisection_tags",
+)  # fmt: skip
+
+
+def _unpickled(points: Floats, cells: Indices, others: dict[str, Any]) -> Mesh:
+    return Mesh(points, cells, **others)
+
+
+class _Beside:
+    """What is beside a mesh as the C interface takes it, and the arrays behind it."""
+
+    def __init__(self, dimension: int, vertices: int, cells: int) -> None:
+        self.extras = MeshExtras()
+        self._dimension = dimension
+        self._counts = {"vertex": vertices, "cell": cells}
+        self._kept: list[Any] = []
+
+    def add(self, name: str, array: NDArray[Any] | None) -> None:
+        self._kept.append(array)
+        setattr(self.extras, name, address_of(array))
+
+    def add_fields(self, of: str, fields: Mapping[str, ArrayLike] | None) -> None:
+        given = {} if fields is None else dict(fields)
+        c_fields = (Field * len(given))()
+        for c_field, (name, values) in zip(c_fields, given.items()):
+            label = f"{of}_fields[{name!r}]"
+            columns = (self._dimension,) if np.ndim(values) == 2 else ()
+            array = floats(values, (self._counts[of], *columns), label)
+            self._kept.append(array)
+            c_field.name = text(name, f"a name of {of}_fields")
+            c_field.values = address_of(array)
+            c_field.rows = array.shape[1] if array.ndim == 2 else 1
+        setattr(self.extras, f"{of}_fields", c_fields)
+        setattr(self.extras, f"{of}_field_count", len(given))
+
+    def add_facets(
+        self, facets: ArrayLike | None, labels: ArrayLike | None, base_labels: ArrayLike | None
+    ) -> None:
+        if facets is None:
+            if labels is not None or base_labels is not None:
+                raise ValueError("labels: expected facets, which they are of")
+            return
+        if labels is None:
+            raise ValueError("facets: expected labels, one each")
+        corners = indices(
+            facets, ("facets", self._dimension), "facets", max(self._counts["vertex"], 1)
+        )
+        count = len(corners)
+        self.add("facets", corners)
+        self.extras.facet_count = count
+        self.add("labels", _labels(labels, (count,), "labels", np.uint16))
+        self.add("base_labels", _labels(base_labels, (count,), "base_labels", np.uint16))

@@ -18,7 +18,7 @@ from ._arrays import Floats, view, whole
 from ._library import Field, FrameInfo, Handle, library
 from ._rotations import Rotations
 from .errors import Error
-from .mesh import Mesh, html_table, path_bytes
+from .mesh import Mesh, html_table, path_bytes, seen_field
 from .scene import Scene
 from .surface import Surface
 
@@ -68,8 +68,7 @@ def _fields(handle: Handle, info: FrameInfo) -> Iterator[tuple[str, Floats]]:
     for number in range(info.field_count):
         field = Field()
         library().pent_frame_field(handle.number, number, ctypes.byref(field))
-        shape = (info.vertices, field.rows) if field.rows > 1 else (info.vertices,)
-        yield field.name.decode(), view(field.values, shape, np.float64, handle)
+        yield seen_field(field, info.vertices, handle)
 
 
 class Run:

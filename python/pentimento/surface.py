@@ -16,6 +16,9 @@ from ._library import library
 from .errors import Error
 
 
+_FROM_ZERO = ("speed", "strain", "force", "reaction", "energy_density")
+
+
 @dataclass(frozen=True, eq=False)
 class Surface:
     """A surface of triangles, counter-clockwise from outside. Its arrays are its own."""
@@ -58,14 +61,16 @@ class Surface:
 
     def color_range(self, quantity: str) -> tuple[float, float]:
         """The values of an attribute that get the first and the last color, as pent-render has
-        them: w from end to end, all others from 0 to what a hundredth is above."""
+        them: w from end to end, speed, strain, force, reaction and energy_density from 0 to what a
+        hundredth is above, all others from what a hundredth is below."""
         values = self._attribute(quantity)
         if len(values) == 0:
             return (0.0, 0.0)
         if quantity == "w":
             return (float(values.min()), float(values.max()))
-        place = (len(values) - 1) * 99 // 100
-        return (0.0, float(np.partition(values, place)[place]))
+        first, last = ((len(values) - 1) * hundredths // 100 for hundredths in (1, 99))
+        ordered = np.partition(values, (first, last))
+        return (0.0 if quantity in _FROM_ZERO else float(ordered[first]), float(ordered[last]))
 
     def colors(self, quantity: str, low: float, high: float) -> NDArray[np.float32]:
         """(vertices, 3): red, green, blue, 0..1, linear light, as pent-render colors by an

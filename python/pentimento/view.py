@@ -48,6 +48,7 @@ class View:
         self.dimension: int = dimensions.pop()  #: 3 or 4; three-dimensional bodies are seen whole.
         if self.dimension == 2:
             raise Error(f"{self.path}: a mesh of 2 dimensions; slices are of bodies of 3 or 4")
+        self._fields: dict[str, dict[str, Floats]] = {}  # of meshes, once looked at
         self._first: dict[str, Frame] = {}
         self._last: dict[str, tuple[int, Frame, dict[str, Floats]]] = {}
         self._rate: float | None = None
@@ -114,8 +115,8 @@ class View:
 
         body  Its number, from 0.
         w, speed, strain, force  As `pent-slice --color` has them; force where frames have contact
-            forces, and what else frames have, as reaction and energy_density, vectors by their
-            length.
+            forces, and what else frames have, as reaction and energy_density, and meshes have of
+            their vertices, vectors by their length; of one name the first of these.
 
         Raises an Error if the frame is not there, or damaged.
         """
@@ -124,7 +125,8 @@ class View:
         surface = mesh.slice(None, offset, frame.positions, rotate=rotate, shading=shading)
         attributes = {name: surface.interpolate(values) for name, values in quantities.items()}
         index = np.full(len(surface.points), float(self.bodies.index(body)))
-        return dataclasses.replace(surface, attributes={"body": index, **attributes})
+        others = {name: values for name, values in attributes.items() if name != "body"}
+        return dataclasses.replace(surface, attributes={"body": index, **others})
 
     def time(self, number: int) -> float:
         """s, of a frame."""
@@ -152,32 +154,35 @@ class View:
         held = self._last.get(body)
         if held is None or held[0] != number:
             frame = self._read(number, body)
-            held = (number, frame, _quantities(self._meshes[body], frame))
+            held = (number, frame, self._quantities(body, frame))
             self._last[body] = held
         return held[1:]
+
+
+    def _quantities(self, body: str, frame: Frame) -> dict[str, Floats]:
+        """At the vertices of the mesh."""
+        mesh = self._meshes[body]
+        if body not in self._fields:
+            self._fields[body] = {k: _lengths(v) for k, v in mesh.quantities().items()}
+        zeros = np.zeros(mesh.vertex_count)
+        found = {
+            "w": frame.positions[:, 3] if mesh.dimension == 4 else zeros,
+            "speed": zeros if frame.velocities is None else _lengths(frame.velocities),
+            "strain": mesh.strain(frame.positions),
+        }
+        if frame.contact_forces is not None:
+            found["force"] = _lengths(frame.contact_forces)
+        for name, values in frame.fields.items():
+            found.setdefault(name, _lengths(values))
+        return {**self._fields[body], **found}
 
 
 def _at_rest(mesh: Mesh) -> Frame:
     return Frame(0, 0, 0.0, mesh.points, None, None, {}, mesh.crc32c)
 
 
-def _quantities(mesh: Mesh, frame: Frame) -> dict[str, Floats]:
-    """At the vertices of the mesh."""
-    zeros = np.zeros(mesh.vertex_count)
-    found = {
-        "w": frame.positions[:, 3] if mesh.dimension == 4 else zeros,
-        "speed": zeros if frame.velocities is None else _lengths(frame.velocities),
-        "strain": mesh.strain(frame.positions),
-    }
-    if frame.contact_forces is not None:
-        found["force"] = _lengths(frame.contact_forces)
-    for name, values in frame.fields.items():
-        found.setdefault(name, _lengths(values))
-    return found
-
-
 def _lengths(values: Floats) -> Floats:
     if values.ndim == 1:
-        return np.abs(values)
+        return values
     lengths: Floats = np.linalg.norm(values, axis=1)
     return lengths

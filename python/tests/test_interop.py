@@ -47,6 +47,16 @@ def test_four_dimensions_become_a_boundary_with_w(tesseract):
     assert len(tesseract.slice(offset=0.5).to_meshio().cells_dict["triangle"]) > 0
 
 
+@pytest.mark.parametrize("dimension", [3, 4])
+def test_quantities_of_vertices_go_along(dimension):
+    pytest.importorskip("meshio")
+    points, cells = box(dimension, 2)
+    mesh = Mesh(points, cells, vertex_fields={"heat": points[:, 0], "flow": -points})
+    data = mesh.to_meshio().point_data
+    np.testing.assert_array_equal(data["heat"], points[:, 0])
+    np.testing.assert_array_equal(data["flow"], -points)
+
+
 def test_trimesh_finds_the_same_volume(cube, tesseract):
     pytest.importorskip("trimesh")
     found = cube.to_trimesh()

@@ -24,7 +24,29 @@ def full(dimension: int) -> Mesh:
         columns=np.arange(count) // 2,
         layers=np.arange(count) % 2,
         fibers=random.normal(size=(len(cells), dimension)),
+        vertex_fields={"heat": random.normal(size=count), "flow": random.normal(size=points.shape)},
+        cell_fields={"phase": random.normal(size=len(cells)), "heat": np.zeros(len(cells))},
+        facets=cells[1:, 1:],
+        labels=np.arange(len(cells) - 1),
+        base_labels=np.arange(len(cells) - 1) + 7,
+        bisection_tags=np.arange(len(cells)) % dimension,
     )
+
+
+EVERYTHING = (
+    "points", "cells", "regions", "columns", "layers", "fibers", "facets", "labels", "base_labels",
+    "bisection_tags",
+)  # fmt: skip
+
+
+def assert_same(found: Mesh, expected: Mesh) -> None:
+    for name in EVERYTHING:
+        np.testing.assert_array_equal(getattr(found, name), getattr(expected, name))
+    for name in ("vertex_fields", "cell_fields"):
+        fields = getattr(found, name)
+        assert list(fields) == list(getattr(expected, name)) and len(fields) == 2
+        for key, values in fields.items():
+            np.testing.assert_array_equal(values, getattr(expected, name)[key])
 
 
 @pytest.mark.parametrize("ascii", [False, True])
@@ -36,9 +58,45 @@ def test_a_mesh_goes_through_a_file_to_the_byte(tmp_path, dimension, ascii):
     read.write(tmp_path / "b.pent", ascii=ascii)
     assert (tmp_path / "a.pent").read_bytes() == (tmp_path / "b.pent").read_bytes()
     assert read.created_by == "me 1.0"
-    for name in ("points", "cells", "regions", "columns", "layers", "fibers"):
-        np.testing.assert_array_equal(getattr(read, name), getattr(made, name))
+    assert_same(read, made)
     assert read.parents is None
+
+
+def test_what_is_beside_a_mesh_is_what_was_given(tesseract):
+    points, cells = box(4, 2)
+    mesh = full(4)
+    random = np.random.default_rng(3)
+    random.integers(0, 2**16, len(cells))
+    random.normal(size=(len(cells), 4))
+    np.testing.assert_array_equal(mesh.vertex_fields["heat"], random.normal(size=len(points)))
+    assert mesh.vertex_fields["flow"].shape == points.shape
+    np.testing.assert_array_equal(mesh.facets, cells[1:, 1:])
+    np.testing.assert_array_equal(mesh.labels, np.arange(len(cells) - 1))
+    with pytest.raises(ValueError, match="read-only"):
+        mesh.vertex_fields["heat"][0] = 1
+    assert tesseract.vertex_fields == tesseract.cell_fields == {}
+    assert tesseract.facets is tesseract.labels is tesseract.bisection_tags is None
+
+
+# Constants have themselves as means; x over a cell, at its centroid, has by volume the mean of
+# centroids.
+@pytest.mark.parametrize("dimension", [2, 3, 4])
+def test_quantities_of_cells_have_means_by_volume_at_vertices(dimension):
+    points, cells = box(dimension, 2)
+    points[len(points) // 2] += 0.1  # the middle, so that volumes differ
+    centers = points[cells].mean(axis=1)
+    mesh = Mesh(
+        points, cells, vertex_fields={"a": points[:, 0]},
+        cell_fields={"a": np.zeros(len(cells)), "b": np.full(len(cells), 3), "c": centers},
+    )  # fmt: skip
+    found = mesh.quantities()
+    np.testing.assert_array_equal(found["a"], points[:, 0])
+    np.testing.assert_allclose(found["b"], 3, rtol=1e-14)
+    volumes = mesh.cell_hypervolumes()
+    for vertex in range(len(points)):
+        around = (cells == vertex).any(axis=1)
+        mean = (volumes[around, np.newaxis] * centers[around]).sum(axis=0) / volumes[around].sum()
+        np.testing.assert_allclose(found["c"][vertex], mean, rtol=1e-14)
 
 
 def test_parents_stay(tmp_path):
@@ -113,9 +171,7 @@ def test_a_solid_is_its_own_slice(cube):
 
 def test_a_mesh_survives_pickling():
     mesh = full(4)
-    again = pickle.loads(pickle.dumps(mesh))
-    for name in ("points", "cells", "regions", "columns", "layers", "fibers"):
-        np.testing.assert_array_equal(getattr(again, name), getattr(mesh, name))
+    assert_same(pickle.loads(pickle.dumps(mesh)), mesh)
 
 
 def test_any_order_of_memory_and_any_type_of_numbers_is_taken():
@@ -151,6 +207,18 @@ def test_any_order_of_memory_and_any_type_of_numbers_is_taken():
         ({"fibers": np.zeros((24, 3))}, ValueError, "fibers"),
         ({"fibers": np.full((24, 4), np.nan)}, Error, "fiber"),
         ({"points": np.full((16, 4), np.inf)}, Error, "mesh: "),
+        ({"vertex_fields": {"a": np.zeros(15)}}, ValueError, r"vertex_fields\['a'\]: found"),
+        ({"vertex_fields": {"a": np.zeros((16, 3))}}, ValueError, r"expected \(16, 4\)"),
+        ({"vertex_fields": {3: np.zeros(16)}}, TypeError, "a name of vertex_fields: found int"),
+        ({"vertex_fields": {"x": np.zeros(16)}}, Error, "'x': the property x has a meaning"),
+        ({"vertex_fields": {"a b": np.zeros(16)}}, Error, "expected a name of letters"),
+        ({"cell_fields": {"a": np.full(24, np.nan)}}, Error, "pentachoron 0: a is not finite"),
+        ({"cell_fields": {"a": ["hot"] * 24}}, TypeError, r"cell_fields\['a'\]: found <U3"),
+        ({"labels": [1]}, ValueError, "labels: expected facets"),
+        ({"facets": [[0, 1, 2, 3]]}, ValueError, "facets: expected labels"),
+        ({"facets": [[0, 1, 2, 16]], "labels": [1]}, IndexError, "facets: found 16"),
+        ({"facets": [[0, 1, 2, 3]], "labels": [1, 2]}, ValueError, "labels: found the shape"),
+        ({"bisection_tags": np.full(24, 256)}, IndexError, "bisection_tags: found 256"),
     ],
 )
 def test_what_is_no_mesh_is_refused_with_a_sentence(change, kind, words):

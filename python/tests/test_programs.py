@@ -132,7 +132,7 @@ def test_slices_of_a_run_have_body_frame_and_number(tesseract, tmp_path):
     assert movie.stat().st_size > 0
     with pytest.raises(TypeError, match="colour: is no keyword of movie"):
         pentimento.movie(run, tmp_path / "movie.mp4", colour="speed")
-    with pytest.raises(ProgramError, match="--color"):
+    with pytest.raises(ProgramError, match="nothing called .taste. to color by"):
         render(run, color="taste")
     with pytest.raises(TypeError, match="expected a Mesh, a Run or a path"):
         render(3)

@@ -55,6 +55,25 @@ def test_attributes_and_colors_are_those_of_pent_slice(data, quantity):
         assert linear.shape == (len(surface.points), 3) and 0 <= linear.min() <= linear.max() <= 1
 
 
+@pytest.mark.parametrize("quantity", ["heat", "flow", "phase"])
+def test_quantities_of_meshes_are_seen_as_pent_slice_has_them(tmp_path, quantity):
+    points, cells = box(4, 2)
+    middles = points[cells].mean(axis=1)
+    mesh = Mesh(
+        points, cells, vertex_fields={"heat": points @ [1, -2, 3, -4], "flow": points - 0.5},
+        cell_fields={"phase": middles @ [3, 1, -1, -2], "body": middles[:, 0] + 5},
+    )  # fmt: skip
+    mesh.write(tmp_path / "a.pent")
+    found = View(tmp_path / "a.pent").slice("a", 0, {"xw": 20}, 0.2)
+    made = pentimento.slice(tmp_path / "a.pent", w=0.2, rotate="xw:20", color=quantity)[0].surface
+    values = found.attributes[quantity]
+    np.testing.assert_array_equal(values.astype(np.float32), made.attributes[quantity])
+    assert found.attributes["body"].max() == 0  # its number, whatever meshes have by that name
+    low, high = found.color_range(quantity)
+    assert values.min() <= low < high <= values.max()
+    assert found.colors(quantity, low, high).shape == (len(found.points), 3)
+
+
 def test_a_body_has_the_color_of_pent_slice(data):
     view = View(data / "run")
     for body in view.bodies:

@@ -70,6 +70,8 @@ MeshExtras<Dim> full_extras(const SimplexMesh<Dim>& mesh) {
     extras.cell_fields.push_back({"flow", Eigen::MatrixXd::Random(Dim, mesh.cell_count())});
     extras.boundary = match_facets<Dim>(mesh.cells, mesh.vertex_count()).boundary;
     extras.labels.assign(static_cast<std::size_t>(extras.boundary.cols()), 7);
+    extras.base_labels.assign(extras.labels.size(), 3);
+    extras.bisection_tags.assign(static_cast<std::size_t>(mesh.cell_count()), 1);
     return extras;
 }
 
@@ -90,12 +92,17 @@ void expect_round_trip(const TempFolder& folder, int is_ascii) {
     ASSERT_EQ(pent_write_mesh(read, second.c_str(), "somebody 1.2", is_ascii), 0);
     EXPECT_EQ(read_text(first, "a mesh"), read_text(second, "a mesh"));
     const pent_mesh arrays = full_c_mesh(mesh);
-    const Mesh stored(pent_store_mesh(Dim, &arrays));
+    const Mesh stored(pent_store_mesh(Dim, &arrays, nullptr));
     ASSERT_EQ(pent_write_mesh(stored, second.c_str(), "somebody 1.2", is_ascii), 0);
     EXPECT_EQ(read_text(first, "a mesh"), read_text(second, "a mesh"));
     write_mesh(first, mesh, {.encoding = encoding, .created_by = "us"}, full_extras(mesh));
     const Mesh rich(pent_read_mesh(first.c_str()));
     ASSERT_EQ(pent_write_mesh(rich, second.c_str(), "us", is_ascii), 0);
+    EXPECT_EQ(read_text(first, "a mesh"), read_text(second, "a mesh"));
+    pent_mesh_extras extras = {};
+    ASSERT_EQ(pent_mesh_extras_of(rich, &extras), 0);
+    const Mesh given(pent_store_mesh(Dim, &rich.info.arrays, &extras));
+    ASSERT_EQ(pent_write_mesh(given, second.c_str(), "us", is_ascii), 0);
     EXPECT_EQ(read_text(first, "a mesh"), read_text(second, "a mesh"));
 }
 
@@ -110,13 +117,51 @@ TEST(PluginMeshes, GoThroughFilesAndArraysToTheByte) {
 
 TEST(PluginMeshes, HaveNoParentsWhereNoneWereGiven) {
     const pent_mesh arrays = closed_c_mesh(test::box<4>());
-    EXPECT_EQ(Mesh(pent_store_mesh(4, &arrays)).info.arrays.parents, nullptr);
+    EXPECT_EQ(Mesh(pent_store_mesh(4, &arrays, nullptr)).info.arrays.parents, nullptr);
+}
+
+TEST(PluginMeshes, HaveBesideThemWhatTheyWereGiven) {
+    const SimplexMesh<4> mesh = full_mesh<4>();
+    const MeshExtras<4> given = full_extras(mesh);
+    const TempFolder folder;
+    write_mesh(folder / "a.pent", mesh, {}, given);
+    const Mesh read(pent_read_mesh((folder / "a.pent").string().c_str()));
+    pent_mesh_extras extras = {};
+    ASSERT_EQ(pent_mesh_extras_of(read, &extras), 0);
+    ASSERT_EQ(extras.vertex_field_count, 1);
+    EXPECT_STREQ(extras.vertex_fields[0].name, "heat");
+    EXPECT_EQ(extras.vertex_fields[0].rows, 1);
+    const Eigen::MatrixXd& heat = given.vertex_fields[0].values;
+    EXPECT_TRUE(std::equal(heat.data(), heat.data() + heat.size(), extras.vertex_fields[0].values));
+    ASSERT_EQ(extras.cell_field_count, 1);
+    EXPECT_STREQ(extras.cell_fields[0].name, "flow");
+    EXPECT_EQ(extras.cell_fields[0].rows, 4);
+    const Eigen::MatrixXd& flow = given.cell_fields[0].values;
+    EXPECT_TRUE(std::equal(flow.data(), flow.data() + flow.size(), extras.cell_fields[0].values));
+    ASSERT_EQ(extras.facet_count, given.boundary.cols());
+    EXPECT_TRUE(std::equal(given.boundary.data(), given.boundary.data() + given.boundary.size(),
+                           extras.facets));
+    EXPECT_TRUE(std::equal(given.labels.begin(), given.labels.end(), extras.labels));
+    EXPECT_TRUE(std::equal(given.base_labels.begin(), given.base_labels.end(), extras.base_labels));
+    EXPECT_TRUE(std::equal(given.bisection_tags.begin(), given.bisection_tags.end(),
+                           extras.bisection_tags));
+}
+
+TEST(PluginMeshes, HaveNothingBesideThemWhereNothingWasGiven) {
+    const pent_mesh arrays = closed_c_mesh(test::box<3>());
+    const Mesh plain(pent_store_mesh(3, &arrays, nullptr));
+    pent_mesh_extras extras = {};
+    extras.facet_count = 9;
+    ASSERT_EQ(pent_mesh_extras_of(plain, &extras), 0);
+    EXPECT_EQ(extras.vertex_field_count + extras.cell_field_count + extras.facet_count, 0);
+    EXPECT_EQ(extras.labels, nullptr);
+    EXPECT_EQ(extras.bisection_tags, nullptr);
 }
 
 TEST(PluginMeshes, HaveTheBoundaryThatTheLibraryFinds) {
     const SimplexMesh<4> mesh = full_mesh<4>();
     const pent_mesh arrays = full_c_mesh(mesh);
-    const Mesh stored(pent_store_mesh(4, &arrays));
+    const Mesh stored(pent_store_mesh(4, &arrays, nullptr));
     std::int64_t count = 0;
     const std::uint32_t* boundary = pent_mesh_boundary(stored, &count);
     const Simplices<4> facets = match_facets<4>(mesh.cells, mesh.vertex_count()).boundary;
@@ -137,7 +182,7 @@ TEST(PluginMeshes, SayWhereCellsDoNotFit) {
     arrays.vertices = 6;
     arrays.cells = cells.data();
     arrays.cell_count = 2;
-    const Mesh stored(pent_store_mesh(4, &arrays));
+    const Mesh stored(pent_store_mesh(4, &arrays, nullptr));
     std::int64_t count = 0;
     EXPECT_EQ(pent_mesh_boundary(stored, &count), nullptr);
     expect_error("mesh: pentachoron 0 does not fit its neighbors");
@@ -234,7 +279,7 @@ TEST(PluginMeshesMisuse, GivesASentence) {
     const TempFolder folder;
     const std::string nowhere = (folder / "none" / "a.pent").string();
     const pent_mesh right = closed_c_mesh(test::box<4>());
-    const Mesh mesh(pent_store_mesh(4, &right));
+    const Mesh mesh(pent_store_mesh(4, &right, nullptr));
     const std::array<double, 4> w = {0, 0, 0, 1};
     const std::vector<double> nans(64, kNan);
     pent_surface surface = {};
@@ -242,12 +287,22 @@ TEST(PluginMeshesMisuse, GivesASentence) {
     const auto store = [&](const auto& change) {
         pent_mesh changed = right;
         change(changed);
-        return found(pent_store_mesh(4, &changed));
+        return found(pent_store_mesh(4, &changed, nullptr));
     };
+    const auto store_with = [&](const auto& change) {
+        static const std::vector<double> kValues(256, 1);
+        pent_field field = {.name = "heat", .values = kValues.data(), .rows = 1};
+        pent_mesh_extras extras = {};
+        extras.vertex_fields = &field;
+        extras.vertex_field_count = 1;
+        change(extras, field);
+        return found(pent_store_mesh(4, &right, &extras));
+    };
+    EXPECT_EQ(store_with([](auto&, auto&) {}), 0);
     const std::vector<std::uint32_t> far(5, 99);
     const std::vector<std::uint32_t> mirrored = {1, 0, 2, 3, 4};
     const pent_mesh arrays2 = closed_c_mesh(test::box<2>());
-    const Mesh mesh2(pent_store_mesh(2, &arrays2));
+    const Mesh mesh2(pent_store_mesh(2, &arrays2, nullptr));
     const std::array<double, 1> minus = {-1};
     const std::string long_name(5000, 'a');
     const std::array<pent_turn, 3> wrong_turns = {{{0, 4, 9}, {2, 2, 9}, {0, 3, kNan}}};
@@ -258,8 +313,30 @@ TEST(PluginMeshesMisuse, GivesASentence) {
         {[&] { return found(pent_read_mesh(nullptr)); }, "path is NULL"},
         {[&] { return found(pent_read_mesh(nowhere.c_str())); }, nowhere},
         {[&] { return found(pent_read_frame(nowhere.c_str())); }, nowhere},
-        {[&] { return found(pent_store_mesh(4, nullptr)); }, "mesh is NULL"},
-        {[&] { return found(pent_store_mesh(5, &right)); }, "5 dimensions"},
+        {[&] { return found(pent_store_mesh(4, nullptr, nullptr)); }, "mesh is NULL"},
+        {[&] { return found(pent_store_mesh(5, &right, nullptr)); }, "5 dimensions"},
+        {[&] { return store_with([](auto& e, auto&) { e.vertex_fields = nullptr; }); },
+         "vertex_fields is NULL"},
+        {[&] { return store_with([](auto& e, auto&) { e.cell_field_count = 1; }); },
+         "cell_fields is NULL"},
+        {[&] { return store_with([](auto&, auto& f) { f.name = nullptr; }); },
+         "the name of a field is NULL"},
+        {[&] { return store_with([](auto&, auto& f) { f.name = "x"; }); },
+         "mesh: vertex quantity 'x': the property x has a meaning of its own"},
+        {[&] { return store_with([](auto&, auto& f) { f.values = nullptr; }); }, "heat is NULL"},
+        {[&] { return store_with([&](auto&, auto& f) { f.values = nans.data(); }); },
+         "mesh: vertex 0: heat is not finite"},
+        {[&] { return store_with([](auto&, auto& f) { f.rows = 0; }); }, "heat has 0 rows"},
+        {[&] { return store_with([](auto&, auto& f) { f.rows = 3; }); }, "mesh: heat has 3 x 16"},
+        {[&] { return store_with([](auto& e, auto&) { e.facet_count = 1; }); }, "facets is NULL"},
+        {[&] {
+             return store_with([&](auto& e, auto&) {
+                 e.facets = mirrored.data();
+                 e.facet_count = 1;
+             });
+         },
+         "mesh: 0 labels of the boundary, expected 1"},
+        {[&] { return pent_mesh_extras_of(mesh, nullptr); }, "extras is NULL"},
         {[&] { return store([](auto& m) { m.vertices = 0; }); }, "mesh: 0 vertices"},
         {[&] { return store([](auto& m) { m.cells = nullptr; }); }, "cells is NULL"},
         {[&] {
@@ -319,7 +396,6 @@ TEST(PluginMeshesMisuse, GivesASentence) {
         {[&] { return found(pent_mesh_strain(mesh, nans.data())); }, "finite"},
         {[&] { return found(pent_mesh_strain(mesh2, nullptr)); }, "2 dimensions"},
         {[&] { return found(pent_colors(nullptr, w.data(), 4, 0, 1)); }, "quantity is NULL"},
-        {[&] { return found(pent_colors("taste", w.data(), 4, 0, 1)); }, "expected one of body, w"},
         {[&] { return found(pent_colors("w", nullptr, 4, 0, 1)); }, "values is NULL"},
         {[&] { return found(pent_colors("w", w.data(), -1, 0, 1)); }, "count is -1"},
         {[&] { return found(pent_colors("w", w.data(), 4, 0, kNan)); }, "finite"},

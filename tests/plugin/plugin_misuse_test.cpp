@@ -1,4 +1,12 @@
 #include "plugin_scenes.h"
+#include "support/messages.h"
+#include "support/misfits.h"
+#include "support/temp_folder.h"
+
+#include <pent/output_file.h>
+#include <pent/pent_file.h>
+#include <pent/runs/scene_file.h>
+#include <pent/runs/scene_meshes.h>
 
 #include <gtest/gtest.h>
 
@@ -7,6 +15,7 @@
 #include <cmath>
 #include <functional>
 #include <limits>
+#include <pent_plugin_meshes.h>
 #include <random>
 #include <string>
 #include <thread>
@@ -118,6 +127,62 @@ TEST(PluginMisuse, EveryFunctionWorksWithASimulationAndRefusesNullAndAClosedOne)
     }
     const Host another = test::open4();  // a new one does not get its number
     EXPECT_LT(calls[0](simulation), 0);
+}
+
+// A scene that pent-sim refuses is refused in the same words, from a file or from memory.
+template <int Dim>
+void expect_refused_as_by_programs(const std::string& more,
+                                   const SimplexMesh<Dim>& mesh,
+                                   const std::string& why) {
+    const test::TempFolder folder;
+    const std::string path = (folder / "scene.toml").string();
+    const std::string text = "[scene]\ndimension = " + std::to_string(Dim)
+                             + "\n[[body]]\nname = \"a\"\nmesh = \"a.pent\"\n" + more;
+    write_text(path, text);
+    write_mesh(folder / "a.pent", mesh, {});
+    const simulator::Scene scene = runs::read_scene(path);
+    const std::string expected = test::error_of(
+        [&] { simulator::Simulation<Dim>(scene, runs::read_meshes<Dim>(scene).meshes); });
+    EXPECT_NE(expected.find(why), std::string::npos) << expected;
+    EXPECT_EQ(pent_open_file(path.c_str(), 1), nullptr);
+    EXPECT_EQ(pent_last_error(), expected);
+    const pent_mesh arrays = closed_c_mesh(mesh);
+    const std::string where = folder.path().string();
+    EXPECT_EQ(pent_open_scene(text.c_str(), path.c_str(), where.c_str(), &arrays, 1, 1), nullptr);
+    EXPECT_EQ(pent_last_error(), expected);
+}
+
+template <int Dim>
+void expect_refused_as_by_programs() {
+    const SimplexMesh<Dim>& mesh = test::box<Dim>();
+    expect_refused_as_by_programs("[contact]\n", test::with_cells_twice(mesh, {0}),
+                                  "contact needs a closed surface");
+    expect_refused_as_by_programs("[contact]\n", test::with_cells_on_one_side(mesh, {0}),
+                                  "have both cells on one side");
+    SimplexMesh<Dim> small = mesh;
+    small.positions *= 1e-4;
+    expect_refused_as_by_programs("place = { scale = 1e-29 }\n", small,
+                                  "e-33 m large; expected a size");
+    expect_refused_as_by_programs(
+        "[[constraint]]\nbody = \"a\"\nselect = \"everything\"\nto = 0.04\n"
+        "[[constraint]]\nbody = \"a\"\nselect = \"everything\"\nfrom = 0.035\n",
+        mesh, "is held by two constraints at one time, this one and that at ");
+}
+
+TEST(PluginMisuse, OfScenesIsRefusedAsByPrograms) {
+    expect_refused_as_by_programs<3>();
+    expect_refused_as_by_programs<4>();
+}
+
+TEST(PluginMisuse, OfMeshesThatDoNotFitIsRefusedWhereBodiesAreAdded) {
+    const Host host = test::open4();  // with contact
+    const SimplexMesh<4> mesh = test::with_cells_twice(test::box<4>(), {3});
+    const pent_mesh arrays = closed_c_mesh(mesh);
+    const char* body =
+        "[[body]]\nname = \"c\"\nmesh = \"-\"\nplace = { translate = [0, 9, 0, 0] }\n";
+    EXPECT_LT(pent_add_body(host, body, &arrays), 0);
+    expect_error("contact needs a closed surface");
+    EXPECT_EQ(pent_body_count(host), 2);
 }
 
 TEST(PluginMisuse, IsSaidAndChangesNothing) {

@@ -21,7 +21,7 @@ using Mesh = test::StoredMesh;
 TEST(PluginSlices, AreThoseOfBodies) {
     const Host host = test::open4();
     const pent_mesh arrays = closed_c_mesh(test::box<4>());
-    const Mesh stored(pent_store_mesh(4, &arrays));
+    const Mesh stored(pent_store_mesh(4, &arrays, nullptr));
     const std::array<double, 4> normal = {0.1, 0.2, 0.3, 1};
     for (int i = 0; i < 2; ++i) {
         pent_surface own = {};
@@ -40,7 +40,7 @@ TEST(PluginSlices, AreThoseOfBodies) {
         ASSERT_EQ(pent_step(host, nullptr), 0);
     }
     const pent_mesh solid = closed_c_mesh(test::box<3>());
-    const Mesh stored3(pent_store_mesh(3, &solid));
+    const Mesh stored3(pent_store_mesh(3, &solid, nullptr));
     pent_surface skin = {};
     ASSERT_EQ(pent_slice_mesh(stored3, nullptr, nullptr, 0, &skin), 0);
     EXPECT_EQ(skin.triangle_count, 12);
@@ -49,7 +49,7 @@ TEST(PluginSlices, AreThoseOfBodies) {
 // Without turns the slice by a normal along w, to the bit; a quarter turn takes x to w.
 TEST(PluginSlices, TurnBodiesFirst) {
     const pent_mesh arrays = closed_c_mesh(test::box<4>());
-    const Mesh stored(pent_store_mesh(4, &arrays));
+    const Mesh stored(pent_store_mesh(4, &arrays, nullptr));
     pent_surface slice = {};
     const std::array<double, 4> w = {0, 0, 0, 1};
     ASSERT_EQ(pent_slice_mesh(stored, nullptr, w.data(), 0.3, &slice), 0);
@@ -74,7 +74,7 @@ TEST(PluginSlices, TurnBodiesFirst) {
         EXPECT_GT(normal.dot(place + Eigen::Vector3d::Constant(0.5)), 0);
     }
     const pent_mesh solid = closed_c_mesh(test::box<3>());
-    const Mesh stored3(pent_store_mesh(3, &solid));
+    const Mesh stored3(pent_store_mesh(3, &solid, nullptr));
     ASSERT_EQ(pent_slice_turned(stored3, nullptr, nullptr, &slice, &normals), 0);
     EXPECT_EQ(slice.triangle_count, 12);
 }
@@ -82,7 +82,7 @@ TEST(PluginSlices, TurnBodiesFirst) {
 // A normal has any length, also where its square is no number of doubles.
 TEST(PluginSlices, DoNotDependOnTheLengthOfTheNormal) {
     const pent_mesh arrays = closed_c_mesh(test::box<4>());
-    const Mesh stored(pent_store_mesh(4, &arrays));
+    const Mesh stored(pent_store_mesh(4, &arrays, nullptr));
     for (const double length : {1e-300, 1e-200, 1.0, 1e200, 1e300}) {
         const std::array<double, 4> normal = {0, 0, 0, length};
         pent_surface slice = {};
@@ -101,7 +101,7 @@ TEST(PluginSlices, DoNotDependOnTheLengthOfTheNormal) {
 // x stretched by s: E = (s^2 - 1) / 2 in xx, and nothing else.
 TEST(PluginSlices, HaveTheStrainOfAStretch) {
     const pent_mesh arrays = closed_c_mesh(test::box<4>());
-    const Mesh stored(pent_store_mesh(4, &arrays));
+    const Mesh stored(pent_store_mesh(4, &arrays, nullptr));
     Positions<4> stretched = test::box<4>().positions;
     const double* strain = pent_mesh_strain(stored, stretched.data());
     ASSERT_NE(strain, nullptr) << pent_last_error();

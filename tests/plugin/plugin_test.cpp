@@ -300,7 +300,7 @@ TEST(Plugin, TakesStepsOfQuadraticElementsAsTheLibraryDoes) {
     expect_error("pent-mesh --quadratic");
     arrays.parents = mesh.parents.data();
     const Host host(pent_open_text(scene.c_str(), &arrays, 1, 1));
-    const test::StoredMesh stored(pent_store_mesh(4, &arrays));
+    const test::StoredMesh stored(pent_store_mesh(4, &arrays, nullptr));
     ASSERT_EQ(pent_write_mesh(stored, (folder / "a.pent").c_str(), "", 0), 0) << pent_last_error();
     write_text(folder / "scene.toml", scene);
     const Host from_file(pent_open_file((folder / "scene.toml").c_str(), 1));

@@ -147,14 +147,15 @@ TEST(VertexValues, AreHeightsOverTheBaseSpaceForW) {
 }
 
 TEST(ColorBy, HasANameOfItsOwnAndATitleWithItsUnit) {
-    std::set<std::string_view> names;
-    std::set<std::string_view> titles;
-    for (const ColorBy by : all_colorings()) {
+    std::set<std::string> names;
+    std::set<std::string> titles;
+    for (const ColorBy& by : all_colorings()) {
+        const std::string title = title_of(by, 4);
         names.insert(name_of(by));
-        titles.insert(title_of(by));
-        EXPECT_EQ(title_of(by).empty(), by == ColorBy::Body);
-        EXPECT_TRUE(by == ColorBy::Body
-                    || title_of(by).find(name_of(by)) != std::string_view::npos);
+        titles.insert(title);
+        EXPECT_EQ(title.empty(), by == ColorBy::Body);
+        EXPECT_TRUE(by == ColorBy::Body || title.find(name_of(by)) != std::string::npos);
+        EXPECT_EQ(title == title_of(by, 3), by != ColorBy::EnergyDensity);  // J/m^3 or J/m^4
     }
     EXPECT_EQ(names.size(), 7U);
     EXPECT_EQ(titles.size(), 7U);

@@ -276,10 +276,19 @@ TEST_F(ViewerPrograms, SayWhereObstaclesAre) {
               pent::test::text_of(folder_ / "without.png"));
 }
 
-TEST_F(ViewerPrograms, RefuseUnknownColorsAndFormatsAsWrongUsage) {
-    EXPECT_EQ(run_program("pent-slice " + at("run") + " -o x --color pink").exit_code, 2);
+TEST_F(ViewerPrograms, RefuseUnknownFormatsAsWrongUsage) {
     EXPECT_EQ(run_program("pent-slice " + at("run") + " -o x --format stl").exit_code, 2);
     EXPECT_EQ(run_program("pent-slice " + at("run")).exit_code, 2);
+}
+
+// Only what is looked at tells which quantities there are.
+TEST_F(ViewerPrograms, RefuseColorsOfNothingWithWhatThereIs) {
+    for (const char* program : {"pent-slice", "pent-render"}) {
+        const std::string out = program == std::string("pent-slice") ? "out" : "out.png";
+        expect_refused(program, at("run") + " -o " + at(out) + " --color sped",
+                       "did you mean \"speed\"? There are body, w, speed");
+        EXPECT_FALSE(std::filesystem::exists(folder_ / "out.png"));
+    }
 }
 
 TEST_F(ViewerPrograms, LeaveNothingBehindOnAFullDisk) {

@@ -56,6 +56,26 @@ TEST(RenderRun, LaysASheetOfOneHyperplaneOutInASquare) {
     EXPECT_LT(sheet.width, 3 * 36);
 }
 
+// Frames that differ in nothing else.
+TEST(RenderRun, TellsFramesApartByTheirTimesHoweverNear) {
+    const TempFolder folder;
+    write_run(folder / "run", "a", {0});
+    Frame<4> frame = read_frame<4>(folder / "run/frames/a_000000.pent");
+    frame.frame = frame.step = 1;
+    frame.time = 2e-7;
+    write_frame(folder / "run/frames/a_000001.pent", frame);
+    const RunFolder run = open_run(folder / "run");
+    for (const bool has_caption : {false, true}) {
+        RenderRunOptions options = small_pictures(run);
+        options.width = 320;
+        options.has_caption = has_caption;
+        (void)render_run(run, {.folder = folder / "out"}, options, go_on);
+        EXPECT_EQ(
+            read_png(folder / "out/000000.png").rgb != read_png(folder / "out/000001.png").rgb,
+            has_caption);
+    }
+}
+
 RenderRunOptions bare_picture(const RunFolder& run) {
     RenderRunOptions options = small_pictures(run);
     options.frames = {0};

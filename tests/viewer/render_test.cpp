@@ -140,8 +140,9 @@ TEST(Legend, WritesInTheCorners) {
         byte = 255;
     }
     const Font font(caption_pixels(180));
-    const int end = draw_caption(image, font, "t = 1");
-    draw_color_bar(image, font, ColorBy::Speed, {0, 2}, end);
+    const Caption caption = lay_out_caption(font, "t = 1", 320);
+    draw_caption(image, font, caption);
+    draw_color_bar(image, font, ColorBy::Speed, 4, {0, 2}, caption);
     const auto darkest = [&](int x0, int x1, int y0, int y1) {
         int least = 255;
         for (int y = y0; y < y1; ++y) {
@@ -160,10 +161,11 @@ TEST(Legend, PutsTheBarAboveACaptionThatLeavesNoRoom) {
     Image caption_alone(200, 180);
     std::fill(caption_alone.rgb.begin(), caption_alone.rgb.end(), std::uint8_t{255});
     const Font font(caption_pixels(180));
-    const int end = draw_caption(caption_alone, font, "t = 1.333 s    w = 0.25");
-    EXPECT_LT(end, 200);
+    const Caption caption = lay_out_caption(font, "t = 1.333 s    w = 0.25", 200);
+    EXPECT_EQ(caption.lines.size(), 1U);
+    draw_caption(caption_alone, font, caption);
     Image both = caption_alone;
-    draw_color_bar(both, font, ColorBy::Speed, {0, 2}, end);
+    draw_color_bar(both, font, ColorBy::Speed, 4, {0, 2}, caption);
     EXPECT_NE(both.rgb, caption_alone.rgb);
     for (int y = 180 - 2 * font.pixels(); y < 180; ++y) {  // the caption's own lines
         for (int x = 0; x < 200; ++x) {
@@ -184,24 +186,60 @@ TEST(Legend, IsAsHighAsItSays) {
         }
         return 0;
     };
-    for (const int width : {250, 700}) {  // above the caption, and beside it
-        Image image(width, 300);
-        fill(image, Color::Ones());
-        const int end = draw_caption(image, font, "t = 1.333 s");
-        EXPECT_EQ(end, caption_end(font, "t = 1.333 s"));
-        EXPECT_LE(top_of(image), legend_height(font, width, end, false));
-        draw_color_bar(image, font, ColorBy::Speed, {0, 2}, end);
-        EXPECT_LE(top_of(image), legend_height(font, width, end, true));
-        EXPECT_GT(top_of(image), legend_height(font, width, end, true) - font.pixels());
+    // Above the caption and beside it, with a line and with several.
+    for (const std::string text : {"t = 1.333 s", "t = 1.333 s    w = 0.25, xw 12.5, zw 33.33"}) {
+        for (const int width : {250, 700}) {
+            Image image(width, 300);
+            fill(image, Color::Ones());
+            const Caption caption = lay_out_caption(font, text, width);
+            draw_caption(image, font, caption);
+            EXPECT_LE(top_of(image), legend_height(font, width, caption, false));
+            EXPECT_GT(top_of(image), legend_height(font, width, caption, false) - font.pixels());
+            Image margin(width, font.pixels() / 2);  // the last line is no nearer to the edge
+            fill(margin, Color::Ones());
+            EXPECT_TRUE(std::equal(margin.rgb.rbegin(), margin.rgb.rend(), image.rgb.rbegin()));
+            draw_color_bar(image, font, ColorBy::Speed, 4, {0, 2}, caption);
+            EXPECT_LE(top_of(image), legend_height(font, width, caption, true));
+            EXPECT_GT(top_of(image), legend_height(font, width, caption, true) - font.pixels());
+        }
     }
-    EXPECT_EQ(legend_height(font, 700, 0, false), 0);
+    EXPECT_EQ(legend_height(font, 700, {}, false), 0);
+}
+
+// Nothing of a caption is cut off, whatever the width, as long as its pieces fit, and nothing is
+// lost: what sheets have to tell their rows apart by is often at its end.
+TEST(Caption, IsAllInThePictureAndAllThere) {
+    const Font font(9);
+    for (const std::string text :
+         {"t = 0.000 s", "t = 0.000 s    w = 0.1235, xy 10, zw 33.33, xw 12.5",
+          "t = 10.000 s    (0.1826, 0.3651, 0.5477, 0.7303) . p = 0.3, all solid"}) {
+        std::size_t fewer = 100;
+        for (int width = 100; width < 500; width += 10) {
+            const Caption caption = lay_out_caption(font, text, width);
+            EXPECT_LE(caption.end, width);
+            EXPECT_LE(caption.lines.size(), fewer);
+            fewer = caption.lines.size();
+            std::string joined;
+            int longest = 0;
+            for (const std::string& line : caption.lines) {
+                joined += line;
+                longest = std::max(longest, font.pixels() + font.width(line));
+            }
+            EXPECT_EQ(caption.end, longest);
+            std::string expected = text;
+            std::erase(expected, ' ');
+            std::erase(joined, ' ');
+            EXPECT_EQ(joined, expected);
+        }
+        EXPECT_EQ(fewer, 1U);  // where there is room
+    }
 }
 
 TEST(Legend, HasOneColorAndOneNumberForARangeOfOneValue) {
     const Font font(20);
     Image image(400, 100);
     fill(image, Color::Ones());
-    draw_color_bar(image, font, ColorBy::Strain, {0, 0}, 0);
+    draw_color_bar(image, font, ColorBy::Strain, 4, {0, 0}, {});
     const std::array<std::uint8_t, 3> lowest = to_srgb(map_color(ColorMap::Heat, 0));
     int colored = 0;
     for (int x = 0; x < image.width; ++x) {

@@ -9,7 +9,9 @@
 
 #include <limits>
 #include <numbers>
+#include <string>
 #include <support/messages.h>
+#include <vector>
 
 namespace pent::viewer {
 namespace {
@@ -49,6 +51,26 @@ TEST(MakeSections, NamesAHyperplaneByItsUnitNormal) {
     options.offsets = {0.5};
     EXPECT_EQ(make_sections<4>(options, std::span(&frame, 1))[0].label,
               "(0, 0.6, 0, 0.8) . p = 0.5");
+}
+
+// Rows of a contact sheet have nothing else to be told apart by.
+TEST(MakeSections, NamesThemWithAsManyDigitsAsTellThemApart) {
+    Frame<4> frame;
+    frame.positions = Positions<4>::Identity(4, 4);
+    const auto labels = [&](const std::vector<double>& offsets) {
+        SectionOptions options;
+        options.offsets = offsets;
+        std::vector<std::string> all;
+        for (const Section& section : make_sections<4>(options, std::span(&frame, 1))) {
+            all.push_back(section.label);
+        }
+        return all;
+    };
+    using Labels = std::vector<std::string>;
+    EXPECT_EQ(labels({0.123456, 0.2}), (Labels{"w = 0.1235", "w = 0.2"}));
+    EXPECT_EQ(labels({0.123456, 0.2, 0.123461}),
+              (Labels{"w = 0.123456", "w = 0.2", "w = 0.123461"}));
+    EXPECT_EQ(labels({0.1, 0.3, 0.1}), (Labels{"w = 0.1", "w = 0.3", "w = 0.1"}));
 }
 
 TEST(SpanLabel, TellsOffsetsAndAnglesFromTheFirstToTheLast) {

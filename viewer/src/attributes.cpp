@@ -61,25 +61,37 @@ Eigen::VectorXd vertex_strain(const SimplexMesh<Dim>& rest, const Positions<Dim>
     const double farthest =
         std::max(rest.positions.cwiseAbs().maxCoeff(), positions.cwiseAbs().maxCoeff());
     const double rounding = 16 * std::numeric_limits<double>::epsilon() * farthest;
-    Eigen::VectorXd volumes(rest.cell_count());
-    Eigen::VectorXd strains(rest.cell_count());
+    Eigen::MatrixXd strains(1, rest.cell_count());
     parallel_for(rest.cell_count(), kLightChunk, [&](Eigen::Index c) {
         const Square<Dim> at_rest = edge_matrix<Dim>(rest.positions, rest.cells, c);
         const Square<Dim> inverse = at_rest.inverse();
         const Square<Dim> F = edge_matrix<Dim>(positions, rest.cells, c) * inverse;
-        volumes[c] = std::abs(at_rest.determinant());
         const double strain = (F.transpose() * F - Square<Dim>::Identity()).norm() / 2;
-        strains[c] = strain > rounding * inverse.norm() ? strain : 0;
+        strains(0, c) = strain > rounding * inverse.norm() ? strain : 0;
     });
-    Eigen::VectorXd sum = Eigen::VectorXd::Zero(rest.vertex_count());
-    Eigen::VectorXd weight = Eigen::VectorXd::Zero(rest.vertex_count());
-    for (Eigen::Index c = 0; c < rest.cell_count(); ++c) {
+    return vertex_means(rest, strains).transpose();
+}
+
+template <int Dim>
+Eigen::MatrixXd vertex_means(const SimplexMesh<Dim>& mesh, const Eigen::MatrixXd& values) {
+    Eigen::VectorXd volumes(mesh.cell_count());
+    parallel_for(mesh.cell_count(), kLightChunk, [&](Eigen::Index c) {
+        volumes[c] = std::abs(edge_matrix<Dim>(mesh.positions, mesh.cells, c).determinant());
+    });
+    Eigen::MatrixXd means = Eigen::MatrixXd::Zero(values.rows(), mesh.vertex_count());
+    Eigen::VectorXd weight = Eigen::VectorXd::Zero(mesh.vertex_count());
+    for (Eigen::Index c = 0; c < mesh.cell_count(); ++c) {
         for (int k = 0; k <= Dim; ++k) {
-            sum[rest.cells(k, c)] += volumes[c] * strains[c];
-            weight[rest.cells(k, c)] += volumes[c];
+            means.col(mesh.cells(k, c)) += volumes[c] * values.col(c);
+            weight[mesh.cells(k, c)] += volumes[c];
         }
     }
-    return (weight.array() > 0).select(sum.array() / weight.array(), 0);
+    for (Eigen::Index v = 0; v < mesh.vertex_count(); ++v) {
+        if (weight[v] > 0) {
+            means.col(v) /= weight[v];
+        }
+    }
+    return means;
 }
 
 template <int Dim>
@@ -155,6 +167,8 @@ template Eigen::VectorXd vertex_force<3>(const Frame<3>& frame);
 template Eigen::VectorXd vertex_force<4>(const Frame<4>& frame);
 template Eigen::VectorXd vertex_strain<3>(const SimplexMesh<3>&, const Positions<3>&);
 template Eigen::VectorXd vertex_strain<4>(const SimplexMesh<4>&, const Positions<4>&);
+template Eigen::MatrixXd vertex_means<3>(const SimplexMesh<3>&, const Eigen::MatrixXd&);
+template Eigen::MatrixXd vertex_means<4>(const SimplexMesh<4>&, const Eigen::MatrixXd&);
 template Eigen::VectorXd vertex_w<3>(const Positions<3>& positions);
 template Eigen::VectorXd vertex_w<4>(const Positions<4>& positions);
 template Positions<3> corner_normals<3>(const Surface&,

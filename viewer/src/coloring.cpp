@@ -1,6 +1,8 @@
 #include "pent/viewer/coloring.h"
 
 #include <pent/error.h>
+#include <pent/nearest_name.h>
+#include <pent/printable.h>
 #include <pent/viewer/attributes.h>
 
 #include <algorithm>
@@ -15,8 +17,8 @@ std::vector<ColorBy> all_colorings() {
             ColorBy::Force, ColorBy::Reaction, ColorBy::EnergyDensity};
 }
 
-std::string_view name_of(ColorBy by) {
-    switch (by) {
+std::string name_of(const ColorBy& by) {
+    switch (by.kind) {
         case ColorBy::Body:
             return "body";
         case ColorBy::W:
@@ -30,13 +32,26 @@ std::string_view name_of(ColorBy by) {
         case ColorBy::Reaction:
             return "reaction";
         case ColorBy::EnergyDensity:
+            return "energy_density";
+        case ColorBy::Field:
             break;
     }
-    return "energy_density";
+    return by.field;
 }
 
-std::string_view title_of(ColorBy by) {
-    switch (by) {
+ColorBy coloring_of(std::string_view name) {
+    for (const ColorBy& by : all_colorings()) {
+        if (name_of(by) == name) {
+            return by;
+        }
+    }
+    ColorBy by = ColorBy::Field;
+    by.field = name;
+    return by;
+}
+
+std::string title_of(const ColorBy& by, int dimension) {
+    switch (by.kind) {
         case ColorBy::Body:
             return "";
         case ColorBy::W:
@@ -50,17 +65,75 @@ std::string_view title_of(ColorBy by) {
         case ColorBy::Reaction:
             return "reaction, N";
         case ColorBy::EnergyDensity:
+            return "energy_density, J/m^" + std::to_string(dimension);
+        case ColorBy::Field:
             break;
     }
-    return "energy_density, J/m^n";
+    return by.field;
 }
 
-ColorMap color_map_of(ColorBy by) {
+ColorMap color_map_of(const ColorBy& by) {
     return by == ColorBy::W ? ColorMap::Diverging : ColorMap::Heat;
 }
 
+namespace {
+
 template <int Dim>
-Eigen::VectorXd vertex_values(const Body<Dim>& body, const Frame<Dim>& frame, ColorBy by) {
+[[noreturn]] void refuse_field(const Body<Dim>& body,
+                               const Frame<Dim>& frame,
+                               const std::string& name) {
+    std::vector<ColorBy> all = all_colorings();
+    const std::vector<ColorBy> fields = field_colorings(body, frame);
+    all.insert(all.end(), fields.begin(), fields.end());
+    std::vector<std::string> names;
+    std::string listed;
+    for (const ColorBy& by : all) {
+        names.push_back(name_of(by));
+        listed += (listed.empty() ? "" : ", ") + names.back();
+    }
+    const std::string meant = nearest_name(name, names);
+    throw Error("frame " + std::to_string(frame.frame) + " of \"" + body.name
+                + "\" has nothing called \"" + printable(name) + "\" to color by; "
+                + (meant.empty() ? "there are " : "did you mean \"" + meant + "\"? There are ")
+                + listed);
+}
+
+// Of the frame, or else of the mesh.
+template <int Dim>
+Eigen::VectorXd field_values(const Body<Dim>& body,
+                             const Frame<Dim>& frame,
+                             const std::string& name) {
+    for (const std::vector<VertexField>* fields : {&frame.fields, &body.fields}) {
+        for (const VertexField& field : *fields) {
+            if (field.name == name) {
+                return field.values.rows() == 1
+                           ? Eigen::VectorXd(field.values.transpose())
+                           : Eigen::VectorXd(field.values.colwise().norm().transpose());
+            }
+        }
+    }
+    refuse_field(body, frame, name);
+}
+
+}  // namespace
+
+template <int Dim>
+std::vector<ColorBy> field_colorings(const Body<Dim>& body, const Frame<Dim>& frame) {
+    std::vector<ColorBy> found;
+    for (const std::vector<VertexField>* fields : {&frame.fields, &body.fields}) {
+        for (const VertexField& field : *fields) {
+            const ColorBy by = coloring_of(field.name);
+            if (by.kind == ColorBy::Field
+                && std::find(found.begin(), found.end(), by) == found.end()) {
+                found.push_back(by);
+            }
+        }
+    }
+    return found;
+}
+
+template <int Dim>
+Eigen::VectorXd vertex_values(const Body<Dim>& body, const Frame<Dim>& frame, const ColorBy& by) {
     if (lacks(frame, by)) {
         const bool is_force = by == ColorBy::Force;
         const std::string name(is_force ? "contact_force" : name_of(by));
@@ -68,7 +141,7 @@ Eigen::VectorXd vertex_values(const Body<Dim>& body, const Frame<Dim>& frame, Co
                     + (is_force ? "contact forces" : name)
                     + " to color by; run the scene with [output] vertex = [\"" + name + "\"]");
     }
-    switch (by) {
+    switch (by.kind) {
         case ColorBy::W:
             return vertex_w<Dim>(frame.positions);
         case ColorBy::Speed:
@@ -79,7 +152,9 @@ Eigen::VectorXd vertex_values(const Body<Dim>& body, const Frame<Dim>& frame, Co
             return vertex_force<Dim>(frame);
         case ColorBy::Reaction:
         case ColorBy::EnergyDensity:
-            return find_field(frame, name_of(by))->values.colwise().norm().transpose();
+            return field_values(body, frame, name_of(by));
+        case ColorBy::Field:
+            return field_values(body, frame, by.field);
         case ColorBy::Body:
             break;
     }
@@ -87,7 +162,7 @@ Eigen::VectorXd vertex_values(const Body<Dim>& body, const Frame<Dim>& frame, Co
 }
 
 Eigen::Matrix3Xf surface_colors(const Eigen::VectorXd& values,
-                                ColorBy by,
+                                const ColorBy& by,
                                 const ColorRange& range,
                                 std::size_t body) {
     Eigen::Matrix3Xf colors(3, values.size());
@@ -108,7 +183,7 @@ Eigen::Matrix3Xf surface_colors(const Eigen::VectorXd& values,
     return colors;
 }
 
-ColorRange suitable_range(const Eigen::VectorXd& values, ColorBy by) {
+ColorRange suitable_range(const Eigen::VectorXd& values, const ColorBy& by) {
     if (values.size() == 0 || by == ColorBy::Body) {
         return {0, 0};
     }
@@ -116,17 +191,22 @@ ColorRange suitable_range(const Eigen::VectorXd& values, ColorBy by) {
         return {values.minCoeff(), values.maxCoeff()};
     }
     std::vector<double> sorted(values.begin(), values.end());
-    const auto nearly_all =
-        sorted.begin() + static_cast<std::ptrdiff_t>((sorted.size() - 1) * 99 / 100);
-    std::nth_element(sorted.begin(), nearly_all, sorted.end());
-    return {0, *nearly_all};
+    const auto behind = [&](std::size_t hundredths) {
+        const auto place =
+            sorted.begin() + static_cast<std::ptrdiff_t>((sorted.size() - 1) * hundredths / 100);
+        std::nth_element(sorted.begin(), place, sorted.end());
+        return *place;
+    };
+    return {by.kind == ColorBy::Field ? behind(1) : 0, behind(99)};
 }
 
 ColorRange joined(const ColorRange& a, const ColorRange& b) {
     return {std::min(a.low, b.low), std::max(a.high, b.high)};
 }
 
-template Eigen::VectorXd vertex_values<3>(const Body<3>&, const Frame<3>&, ColorBy);
-template Eigen::VectorXd vertex_values<4>(const Body<4>&, const Frame<4>&, ColorBy);
+template Eigen::VectorXd vertex_values<3>(const Body<3>&, const Frame<3>&, const ColorBy&);
+template Eigen::VectorXd vertex_values<4>(const Body<4>&, const Frame<4>&, const ColorBy&);
+template std::vector<ColorBy> field_colorings<3>(const Body<3>&, const Frame<3>&);
+template std::vector<ColorBy> field_colorings<4>(const Body<4>&, const Frame<4>&);
 
 }  // namespace pent::viewer

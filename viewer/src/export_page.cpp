@@ -8,6 +8,7 @@
 #include <pent/formatted.h>
 #include <pent/obstacles_file.h>
 #include <pent/output_file.h>
+#include <pent/run_files.h>
 #include <pent/viewer/attributes.h>
 #include <pent/viewer/coloring.h>
 
@@ -28,7 +29,8 @@ namespace {
 constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
 constexpr int kSteps = 65535;     // of a coordinate
 constexpr int kColorSteps = 255;  // of a quantity
-constexpr std::array<ColorBy, 3> kQuantities = {ColorBy::Speed, ColorBy::Strain, ColorBy::Force};
+constexpr std::array<ColorBy::Kind, 3> kQuantities = {ColorBy::Speed, ColorBy::Strain,
+                                                      ColorBy::Force};
 
 // The vertices of a body that its boundary has, and their new numbers.
 struct Shell {
@@ -78,7 +80,7 @@ public:
             shells_.push_back(shell_of<Dim>(body));
         }
         const Frame<Dim> first = load_frame<Dim>(run, bodies_.front(), options.frames.front());
-        for (const ColorBy by : kQuantities) {
+        for (const ColorBy::Kind by : kQuantities) {
             const bool is_there = by == ColorBy::Speed   ? first.velocities.cols() > 0
                                   : by == ColorBy::Force ? !lacks(first, by)
                                                          : !run.is_mesh;
@@ -91,7 +93,7 @@ public:
 
     void check_size(const std::filesystem::path& output, std::int64_t page_bytes) const {
         constexpr std::int64_t kAround = 100;  // of text
-        const bool do_move = std::filesystem::is_directory(run_.path / "obstacles");
+        const bool do_move = std::filesystem::is_directory(run_.path / kObstaclesFolder);
         const std::int64_t obstacles = std::max(obstacle_bytes(options_.frames.front()),
                                                 obstacle_bytes(options_.frames.back()));
         std::int64_t a_frame = kAround + (do_move ? obstacles : 0);
@@ -190,7 +192,7 @@ private:
         return list.empty() ? 0 : static_cast<std::int64_t>(obstacles_text<Dim>(list).size());
     }
 
-    [[nodiscard]] std::string maximum(ColorBy by) const {
+    [[nodiscard]] std::string maximum(const ColorBy& by) const {
         const auto found = std::find(quantities_.begin(), quantities_.end(), by);
         return found == quantities_.end()
                    ? "null"

@@ -1,12 +1,12 @@
 #include "pent/viewer/run_folder.h"
 
 #include <pent/error.h>
-#include <pent/formatted.h>
 #include <pent/obstacles_file.h>
+#include <pent/run_files.h>
+#include <pent/viewer/attributes.h>
 
 #include <algorithm>
 #include <charconv>
-#include <map>
 #include <optional>
 #include <set>
 #include <sstream>
@@ -18,12 +18,15 @@ namespace {
 
 namespace fs = std::filesystem;
 
+constexpr const char* kExpected =
+    "a run folder of pent-sim, with meshes/ and frames/, or a .pent mesh";
+
 fs::path mesh_path(const RunFolder& run, const std::string& body) {
-    return run.is_mesh ? run.path : run.path / "meshes" / (body + ".pent");
+    return run.is_mesh ? run.path : run.path / mesh_file(body);
 }
 
 fs::path frame_path(const RunFolder& run, const std::string& body, int frame) {
-    return run.path / "frames" / frame_file_name(body, frame);
+    return run.path / frame_file(body, frame);
 }
 
 std::optional<int> to_number(const std::string& text) {
@@ -34,40 +37,6 @@ std::optional<int> to_number(const std::string& text) {
         return std::nullopt;
     }
     return number;
-}
-
-/// Names without extension of the .pent files in a folder; hidden files are temporary ones.
-std::vector<std::string> pent_stems(const fs::path& folder) {
-    std::error_code error;
-    std::vector<std::string> stems;
-    fs::directory_iterator entry(folder, error);
-    for (; !error && entry != fs::directory_iterator(); entry.increment(error)) {
-        const fs::path name = entry->path().filename();
-        if (name.extension() == ".pent" && name.string().front() != '.') {
-            stems.push_back(name.stem().string());
-        }
-    }
-    if (error) {
-        throw Error(
-            folder.string() + ": " + error.message()
-            + "; expected a run folder of pent-sim, with meshes/ and frames/, or a .pent mesh");
-    }
-    std::sort(stems.begin(), stems.end());
-    return stems;
-}
-
-// The frames of each body, by files NAME_000123; a body's name may have digits and _ itself.
-std::map<std::string, std::set<int>> frames_by_body(const fs::path& folder) {
-    std::map<std::string, std::set<int>> frames;
-    for (const std::string& stem : pent_stems(folder)) {
-        const std::size_t bar = stem.rfind('_');
-        if (bar != std::string::npos && stem.size() - bar > 6) {
-            if (const std::optional<int> number = to_number(stem.substr(bar + 1))) {
-                frames[stem.substr(0, bar)].insert(*number);
-            }
-        }
-    }
-    return frames;
 }
 
 RunFolder single_mesh(const fs::path& path) {
@@ -94,7 +63,7 @@ void require_dimension(const fs::path& path, int found, int expected) {
 }
 
 std::vector<int> common_frames(const RunFolder& run) {
-    const auto by_body = frames_by_body(run.path / "frames");
+    const auto by_body = frames_of_run(run.path, kExpected);
     std::vector<int> common;
     for (const std::string& body : run.bodies) {
         const auto found = by_body.find(body);
@@ -112,7 +81,7 @@ std::vector<int> common_frames(const RunFolder& run) {
         common = std::move(kept);
     }
     if (common.empty()) {
-        throw Error((run.path / "frames").string() + ": no frame that all bodies have");
+        throw Error((run.path / kFramesFolder).string() + ": no frame that all bodies have");
     }
     return common;
 }
@@ -175,9 +144,10 @@ RunFolder open_run(const std::filesystem::path& path) {
     }
     RunFolder run;
     run.path = path;
-    run.bodies = pent_stems(path / "meshes");
+    run.bodies = bodies_of_run(path, kExpected);
     if (run.bodies.empty()) {
-        throw Error((path / "meshes").string() + ": no .pent mesh; expected one for every body");
+        throw Error((path / kMeshesFolder).string()
+                    + ": no .pent mesh; expected one for every body");
     }
     for (const std::string& body : run.bodies) {
         const FileInfo info = read_info(mesh_path(run, body));
@@ -188,6 +158,22 @@ RunFolder open_run(const std::filesystem::path& path) {
     return run;
 }
 
+namespace {
+
+template <int Dim>
+std::vector<VertexField> vertex_fields_of(const MeshFile<Dim>& file) {
+    std::vector<VertexField> fields = file.extras.vertex_fields;
+    for (const VertexField& of_cells : file.extras.cell_fields) {
+        const auto is_same = [&](const VertexField& field) { return field.name == of_cells.name; };
+        if (std::none_of(fields.begin(), fields.end(), is_same)) {
+            fields.push_back({of_cells.name, vertex_means(file.mesh, of_cells.values)});
+        }
+    }
+    return fields;
+}
+
+}  // namespace
+
 template <int Dim>
 std::vector<Body<Dim>> load_bodies(const RunFolder& run) {
     std::vector<Body<Dim>> bodies;
@@ -195,7 +181,9 @@ std::vector<Body<Dim>> load_bodies(const RunFolder& run) {
         const fs::path path = mesh_path(run, name);
         MeshFile<Dim> file = read_mesh<Dim>(path);
         Boundary<Dim> boundary = make_boundary(file.mesh, path.string());
-        bodies.push_back({name, std::move(file.mesh), file.info.crc32c, std::move(boundary)});
+        std::vector<VertexField> fields = vertex_fields_of(file);
+        bodies.push_back(
+            {name, std::move(file.mesh), file.info.crc32c, std::move(boundary), std::move(fields)});
     }
     return bodies;
 }
@@ -222,13 +210,13 @@ Frame<Dim> load_frame(const RunFolder& run, const Body<Dim>& body, int frame) {
 template <int Dim>
 std::vector<ObstacleShape<Dim>> load_obstacles(const RunFolder& run, int frame) {
     std::error_code error;
-    const fs::path at_rest = run.path / "obstacles.json";
-    const fs::path moving = run.path / "obstacles";
-    if (run.is_mesh || (!fs::exists(at_rest, error) && !fs::exists(moving, error))) {
+    const fs::path at_rest = run.path / kObstaclesFile;
+    if (run.is_mesh
+        || (!fs::exists(at_rest, error) && !fs::exists(run.path / kObstaclesFolder, error))) {
         return {};
     }
     return read_obstacles<Dim>(fs::exists(at_rest, error) ? at_rest
-                                                          : moving / formatted("%06d.json", frame));
+                                                          : run.path / obstacles_file(frame));
 }
 
 std::vector<int> select_frames(const std::vector<int>& frames, const std::string& text) {

@@ -8,6 +8,7 @@
 #include <pent/viewer/obstacle_surface.h>
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 namespace pent::viewer {
@@ -18,8 +19,19 @@ constexpr float kOnionOpacity = 0.22F;
 constexpr float kOutlineOpacity = 0.07F;
 constexpr double kMaxLegend = 1.0 / 3;  // of the height of a picture
 
-std::string caption_of(double time, const Tile& tile) {
-    return formatted("t = %.3f s", time) + (tile.label.empty() ? "" : "    " + tile.label);
+std::string caption_of(double time, int digits, const Tile& tile) {
+    return formatted("t = %.*f s", digits, time) + (tile.label.empty() ? "" : "    " + tile.label);
+}
+
+// Behind the point, as many as tell apart so many times from the first to the last.
+int digits_of(const std::array<double, 2>& times, std::size_t count) {
+    constexpr double kFewest = 3;
+    constexpr double kMost = 15;
+    constexpr double kRounding = 1e-6;  // of times that are sums: a thousandth has 3 digits
+    const double between =
+        count > 1 ? (times[1] - times[0]) / static_cast<double>(count - 1) : times[0];
+    const double needed = between > 0 ? std::ceil(-std::log10(between) - kRounding) : kFewest;
+    return static_cast<int>(std::clamp(needed, kFewest, kMost));
 }
 
 double aspect(int width, int height) {
@@ -36,6 +48,9 @@ RunRenderer<Dim>::RunRenderer(const RunFolder& run, const RenderRunOptions& opti
       start_(load_snapshot<Dim>(run, bodies_, run.frames.front(), options.color)),
       sections_(make_sections<Dim>(options.sections, start_.frames)),
       tiles_(make_tiles(sections_, options.sections, options.is_onion)),
+      times_{load_frame<Dim>(run, bodies_.front(), options.frames.front()).time,
+             load_frame<Dim>(run, bodies_.front(), options.frames.back()).time},
+      time_digits_(digits_of(times_, options.frames.size())),
       framing_(make_fit(tile_size(0), has_color_bar()),
                options.is_sweep ? make_fit({options.width, options.height}, has_color_bar())
                                 : make_fit(small_size(), false)) {}
@@ -63,7 +78,7 @@ std::string RunRenderer<Dim>::longest_caption() const {
     constexpr double kLongTime = 10;  // s: two digits before the point
     std::string longest;
     for (const Tile& tile : tiles_) {
-        const std::string line = caption_of(kLongTime, tile);
+        const std::string line = caption_of(kLongTime, time_digits_, tile);
         longest = line.size() > longest.size() ? line : longest;
     }
     return longest;
@@ -75,7 +90,7 @@ int RunRenderer<Dim>::caption_size(Size size) const {
     constexpr int kReadable = 9;
     const std::string line = longest_caption();
     int pixels = caption_pixels(size.height);
-    while (pixels > kReadable && caption_end(Font(pixels), line) > size.width) {
+    while (pixels > kReadable && lay_out_caption(Font(pixels), line, size.width).lines.size() > 1) {
         --pixels;
     }
     return pixels;
@@ -87,11 +102,11 @@ CameraFit RunRenderer<Dim>::make_fit(Size size, bool has_bar) const {
     double share = 0;
     if (options_.has_caption) {
         const Font font(caption_size(size));
-        const int end = caption_end(font, longest_caption());
-        share = legend_height(font, size.width, end, has_bar) / double(size.height);
+        const Caption caption = lay_out_caption(font, longest_caption(), size.width);
+        share = legend_height(font, size.width, caption, has_bar) / double(size.height);
         if (share > kMaxLegend) {
             share = std::min(kMaxLegend,
-                             legend_height(font, size.width, end, false) / double(size.height));
+                             legend_height(font, size.width, caption, false) / double(size.height));
         }
     }
     return {aspect(size.width, size.height), options_.view, share};
@@ -138,10 +153,8 @@ void RunRenderer<Dim>::settle() {
 template <int Dim>
 double RunRenderer<Dim>::true_rate() const {
     constexpr double kUsual = 30;
-    const std::vector<int>& frames = options_.frames;
-    const double first = load_frame<Dim>(run_, bodies_.front(), frames.front()).time;
-    const double last = load_frame<Dim>(run_, bodies_.front(), frames.back()).time;
-    const double rate = static_cast<double>(frames.size() - 1) / (last - first);
+    const auto [first, last] = times_;
+    const double rate = static_cast<double>(options_.frames.size() - 1) / (last - first);
     return last > first && !options_.is_sweep ? rate : kUsual;
 }
 
@@ -178,9 +191,9 @@ Image RunRenderer<Dim>::sheet_legend(int width, const Color& paper) const {
         return {};
     }
     const Font font(caption_size(small_size()));
-    Image strip(width, legend_height(font, width, 0, true));
+    Image strip(width, legend_height(font, width, {}, true));
     fill(strip, paper);
-    draw_color_bar(strip, font, options_.color, range_, 0);
+    draw_color_bar(strip, font, options_.color, Dim, range_, {});
     return strip;
 }
 
@@ -307,7 +320,7 @@ Image RunRenderer<Dim>::paint(const Snapshot<Dim>& snapshot,
     render.width = size.width;
     render.height = size.height;
     render.ground_color = obstacle_color();
-    std::string line = caption_of(snapshot.frames.front().time, tile);
+    std::string line = caption_of(snapshot.frames.front().time, time_digits_, tile);
     const std::vector<ObstacleSlice> obstacles =
         take_sections<Dim>(shown_obstacles(snapshot), sections_[tile.solid]);
     for (const ObstacleSlice& slice : obstacles) {
@@ -341,10 +354,12 @@ void RunRenderer<Dim>::write_legend(Image& image, const std::string& line, bool 
         return;
     }
     const Font font(caption_size({image.width, image.height}));
-    const int end = draw_caption(image, font, line);
-    const bool has_room = legend_height(font, image.width, end, true) <= kMaxLegend * image.height;
+    const Caption caption = lay_out_caption(font, line, image.width);
+    draw_caption(image, font, caption);
+    const bool has_room =
+        legend_height(font, image.width, caption, true) <= kMaxLegend * image.height;
     if (has_bar && has_color_bar() && has_room) {
-        draw_color_bar(image, font, options_.color, range_, end);
+        draw_color_bar(image, font, options_.color, Dim, range_, caption);
     }
 }
 

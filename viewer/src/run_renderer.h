@@ -14,6 +14,7 @@
 #include <pent/viewer/run_folder.h>
 #include <pent/viewer/section.h>
 
+#include <array>
 #include <optional>
 #include <span>
 #include <string>
@@ -113,6 +114,8 @@ private:
     Snapshot<Dim> start_;
     std::vector<Section> sections_;
     std::vector<Tile> tiles_;
+    std::array<double, 2> times_;  // of the first and the last frame, s
+    int time_digits_;              // of captions, behind the point
     Survey survey_;
     Framing framing_;
     ColorRange range_;

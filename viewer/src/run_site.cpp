@@ -3,16 +3,13 @@
 #include "web_page.h"
 
 #include <pent/error.h>
-#include <pent/formatted.h>
 #include <pent/input_path.h>
 #include <pent/read_text.h>
+#include <pent/run_files.h>
 #include <pent/viewer/run_folder.h>
 
-#include <algorithm>
-#include <array>
 #include <fstream>
 #include <optional>
-#include <string_view>
 #include <system_error>
 #include <vector>
 
@@ -62,7 +59,7 @@ std::string ranges(const std::vector<int>& frames) {
 // Whether pent-sim may still be at work: report.json says so near its start. Without a report it
 // has just begun.
 bool is_growing(const fs::path& run) {
-    std::ifstream file(run / "report.json", std::ios::binary);
+    std::ifstream file(run / kReportFile, std::ios::binary);
     std::string head(1024, '\0');
     file.read(head.data(), static_cast<std::streamsize>(head.size()));
     head.resize(static_cast<std::size_t>(file.gcount()));
@@ -71,23 +68,24 @@ bool is_growing(const fs::path& run) {
 
 // A file name of a run, with no way out of its folder: "meshes/a.pent", "report.json".
 bool is_served(const std::string& name) {
-    if (name == "scene.toml" || name == "report.json" || name == "obstacles.json") {
+    if (name == kSceneFile || name == kReportFile || name == kObstaclesFile) {
         return true;
     }
-    constexpr std::array<std::array<std::string_view, 2>, 3> kFolders = {
-        {{"meshes/", ".pent"}, {"frames/", ".pent"}, {"obstacles/", ".json"}}};
-    return std::any_of(kFolders.begin(), kFolders.end(), [&](const auto& folder) {
-        return name.starts_with(folder[0]) && name.ends_with(folder[1])
-               && name[folder[0].size()] != '.'
-               && name.find('/', folder[0].size()) == std::string::npos;
-    });
+    const std::size_t slash = name.find('/');
+    const std::string folder = name.substr(0, slash);
+    const bool has_ending =
+        folder == kObstaclesFolder
+            ? name.ends_with(".json")
+            : (folder == kMeshesFolder || folder == kFramesFolder) && name.ends_with(".pent");
+    return has_ending && slash != std::string::npos && name[slash + 1] != '.'
+           && name.find('/', slash + 1) == std::string::npos;
 }
 
 // Frames whose obstacles are there, too: pent-sim writes them last.
 std::vector<int> whole_frames(const RunFolder& run) {
     std::vector<int> frames;
     for (const int frame : run.frames) {
-        if (fs::exists(run.path / formatted("obstacles/%06d.json", frame))) {
+        if (fs::exists(run.path / obstacles_file(frame))) {
             frames.push_back(frame);
         }
     }
@@ -165,7 +163,7 @@ HttpResponse RunSite::file_of_run(const std::string& name) const {
     if (error || path.parent_path() != (run_ / name).parent_path()) {
         return refusal(404, "no such file");
     }
-    const bool is_text = name == "scene.toml";
+    const bool is_text = name == kSceneFile;
     return binary(read_file(path), name.ends_with(".json") ? "application/json"
                                    : is_text               ? "text/plain; charset=utf-8"
                                                            : "application/octet-stream");
@@ -178,13 +176,13 @@ HttpResponse RunSite::listing() const {
     try {
         const bool may_grow = is_growing(run_);  // before the frames, or the last might be missed
         RunFolder run = open_run(run_);
-        const bool do_move = fs::is_directory(run_ / "obstacles");
+        const bool do_move = fs::is_directory(run_ / kObstaclesFolder);
         if (do_move && may_grow) {
             run.frames = whole_frames(run);
         }
-        const std::string obstacles = do_move                               ? "moving"
-                                      : fs::exists(run_ / "obstacles.json") ? "still"
-                                                                            : "none";
+        const std::string obstacles = do_move                             ? "moving"
+                                      : fs::exists(run_ / kObstaclesFile) ? "still"
+                                                                          : "none";
         std::string meshes;
         std::string frames;
         for (const std::string& body : run.bodies) {

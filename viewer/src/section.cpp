@@ -8,10 +8,14 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <set>
 
 namespace pent::viewer {
 
 namespace {
+
+constexpr int kFewDigits = 4;
+constexpr int kAllDigits = 17;  // of which two doubles have different ones
 
 void check(const SectionOptions& options) {
     for (const double offset : options.offsets) {
@@ -45,19 +49,45 @@ std::string span(double first, double last) {
     return short_number(first) + " to " + short_number(last);
 }
 
-std::string label_of(const SectionOptions& options, const FramedHyperplane& plane) {
+std::string number_text(double value, int digits) {
+    return formatted("%.*g", digits, value == 0 ? 0.0 : value);  // no "-0"
+}
+
+std::string label_of(const SectionOptions& options, const FramedHyperplane& plane, int digits) {
     if (options.normal) {
         std::string label = "(";
         for (int axis = 0; axis < 4; ++axis) {
             label += short_number(plane.frame(3, axis)) + (axis < 3 ? ", " : "");
         }
-        return label + ") . p = " + short_number(plane.offset);
+        return label + ") . p = " + number_text(plane.offset, digits);
     }
-    std::string label = "w = " + short_number(plane.offset);
+    std::string label = "w = " + number_text(plane.offset, digits);
     for (const PlaneRotation& rotation : options.rotations) {
-        label += ", " + axes_of(rotation) + " " + short_number(degrees(rotation.radians));
+        label += ", " + axes_of(rotation) + " " + number_text(degrees(rotation.radians), digits);
     }
     return label;
+}
+
+// @param digits  Of the numbers in labels.
+std::vector<Section> sections_with(const std::vector<SectionOptions>& poses,
+                                   const std::vector<double>& offsets,
+                                   int digits) {
+    std::vector<Section> sections;
+    for (const SectionOptions& pose : poses) {
+        for (const double offset : offsets) {
+            const FramedHyperplane plane = make_plane(pose, offset);
+            sections.push_back({plane, label_of(pose, plane, digits)});
+        }
+    }
+    return sections;
+}
+
+std::size_t count_labels(const std::vector<Section>& sections) {
+    std::set<std::string> labels;
+    for (const Section& section : sections) {
+        labels.insert(section.label);
+    }
+    return labels.size();
 }
 
 // The offset halfway between the lowest and the highest vertex along the normal, rounded to about a
@@ -81,7 +111,7 @@ double middle_offset(const SectionOptions& options, std::span<const Frame<4>> fr
 }  // namespace
 
 std::string short_number(double value) {
-    return formatted("%.4g", value == 0 ? 0.0 : value);  // no "-0"
+    return number_text(value, kFewDigits);
 }
 
 std::string span_label(const SectionOptions& options) {
@@ -109,13 +139,12 @@ std::vector<Section> make_sections<4>(const SectionOptions& options,
     if (offsets.empty()) {
         offsets.push_back(middle_offset(poses.front(), frames));
     }
-    std::vector<Section> sections;
-    for (const SectionOptions& pose : poses) {
-        for (const double offset : offsets) {
-            const FramedHyperplane plane = make_plane(pose, offset);
-            sections.push_back({plane, label_of(pose, plane)});
-        }
-    }
+    std::vector<Section> sections = sections_with(poses, offsets, kAllDigits);
+    const std::size_t different = count_labels(sections);  // some may be there twice
+    int digits = kFewDigits;
+    do {
+        sections = sections_with(poses, offsets, digits++);
+    } while (count_labels(sections) < different);
     return sections;
 }
 

@@ -73,7 +73,7 @@ template <typename Action>
 // Nothing if ended early.
 template <int Dim>
 std::optional<Overview> overview_of(const Slicing<Dim>& slicing, const OnProgress& on_progress) {
-    const ColorBy color = slicing.options.color;
+    const ColorBy& color = slicing.options.color;
     if (color == ColorBy::Body && !slicing.shows_obstacles()) {
         return Overview{};
     }
@@ -133,7 +133,7 @@ SurfaceExtras extras_of(const Slicing<Dim>& slicing,
     const Eigen::VectorXd seen = interpolate(surface, snapshot.values[body]);
     SurfaceExtras extras;
     if (options.color != ColorBy::Body) {
-        extras.scalars.push_back({std::string(name_of(options.color)), seen});
+        extras.scalars.push_back({name_of(options.color), seen});
     }
     extras.colors = surface_colors(seen, options.color, range, body);
     extras.comment = options.created_by + ": body " + slicing.bodies[body].name + remark;
@@ -189,11 +189,16 @@ void write_boundary(const Body<4>& body,
     VtuGrid grid;
     grid.points = frame.positions.topRows<3>();
     grid.cells = body.boundary.facets;
-    for (const ColorBy by : all_colorings()) {
+    const auto add = [&](const ColorBy& by) {
+        grid.point_data.push_back({name_of(by), vertex_values<4>(body, frame, by)});
+    };
+    for (const ColorBy& by : all_colorings()) {
         if (by != ColorBy::Body && !lacks(frame, by)) {
-            grid.point_data.push_back(
-                {std::string(name_of(by)), vertex_values<4>(body, frame, by)});
+            add(by);
         }
+    }
+    for (const ColorBy& by : field_colorings<4>(body, frame)) {
+        add(by);
     }
     folder.add_grid(file, grid);
 }

@@ -26,7 +26,7 @@ template <int Dim>
 [[nodiscard]] Snapshot<Dim> load_snapshot(const RunFolder& run,
                                           const std::vector<Body<Dim>>& bodies,
                                           int frame,
-                                          ColorBy color) {
+                                          const ColorBy& color) {
     Snapshot<Dim> snapshot;
     snapshot.number = frame;
     for (const Body<Dim>& body : bodies) {

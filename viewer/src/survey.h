@@ -16,7 +16,7 @@ namespace pent::viewer {
 class Survey {
 public:
     /// @param values  Of the colored quantity at the vertices of the body, not of the surface.
-    void add(const Surface& surface, const Eigen::VectorXd& values, ColorBy color) {
+    void add(const Surface& surface, const Eigen::VectorXd& values, const ColorBy& color) {
         if (surface.vertex_count() == 0) {
             return;
         }

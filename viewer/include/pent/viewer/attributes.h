@@ -29,6 +29,14 @@ template <int Dim>
 [[nodiscard]] Eigen::VectorXd vertex_strain(const SimplexMesh<Dim>& rest,
                                             const Positions<Dim>& positions);
 
+/// The mean of a quantity of cells over the cells at each vertex, weighted by their volumes; zero
+/// at a vertex of none.
+///
+/// @param values  A column a cell; a column a vertex comes back.
+template <int Dim>
+[[nodiscard]] Eigen::MatrixXd vertex_means(const SimplexMesh<Dim>& mesh,
+                                           const Eigen::MatrixXd& values);
+
 /// The w coordinate of each vertex, m; zero in three dimensions.
 template <int Dim>
 [[nodiscard]] Eigen::VectorXd vertex_w(const Positions<Dim>& positions);

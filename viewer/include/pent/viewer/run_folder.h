@@ -29,6 +29,9 @@ struct Body {
     SimplexMesh<Dim> mesh;
     std::uint32_t mesh_crc = 0;  ///< Stated in the mesh file's header.
     Boundary<Dim> boundary;
+    /// Quantities of the mesh at its vertices: its own, and those of cells under other names as the
+    /// mean over the cells at a vertex by their volume.
+    std::vector<VertexField> fields = {};
 };
 
 /// Looks what is in a run folder, or at a mesh file.

@@ -34,7 +34,8 @@ struct SectionOptions {
 /// A hyperplane with the words to tell it by.
 struct Section {
     FramedHyperplane plane;
-    std::string label;  ///< As "w = 0.25"; empty in three dimensions.
+    std::string label;  ///< As "w = 0.25", with as many digits as it takes to tell it from the
+                        ///< others; empty in three dimensions.
 };
 
 /// The hyperplanes asked for; at least one.

@@ -62,7 +62,8 @@ struct SliceRunReport {
 /// which is made if need be: BODY_000123.ply, or BODY_s01_000123.ply when there are several
 /// hyperplanes. Beside them slices.csv lists all of them with volumes and areas; for VTU,
 /// BODY.pvd puts them in time for ParaView. The boundary is tetrahedra at x, y, z with w, speed,
-/// strain and, where frames have them, contact forces as point data: a contour of w is a slice.
+/// strain and, where frames or meshes have them, contact forces and fields as point data: a contour
+/// of w is a slice.
 ///
 /// A file says whether there are obstacles beside its body, and whether they have files of their
 /// own. A plane is cut off where it is as far from the bodies as they reach over all frames.
