@@ -68,10 +68,10 @@ const std::vector<Part>& parts() {
          {"contact.seconds", "contact.deepest"}},
         {"friction",
          [](const Json& scene) {
-             return has_contact(scene)
-                    && (value_at(scene, "contact.friction") > 0
-                        || any_of(scene, "body",
-                                  [](const Json& body) { return body.contains("friction"); }));
+             const bool has_rough =
+                 any_of(scene, "body", [](const Json& body) { return body.contains("friction"); });
+             return (has_contact(scene) && (has_rough || value_at(scene, "contact.friction") > 0))
+                    || (has_obstacle(scene) && has_rough);  // each with a coefficient of its own
          },
          {"contact.friction"}},
         {"an attachment",
