@@ -209,6 +209,21 @@ const double* pent_mesh_strain(const pent_stored_mesh* mesh, const double* posit
         });
 }
 
+const double* pent_mesh_means(const pent_stored_mesh* mesh, const double* values, int32_t rows) {
+    return with_solid<const double*>(
+        mesh, nullptr, [&]<int Dim>(const SimplexMesh<Dim>& held, StoredMesh& /*stored*/) {
+            require(values, "values");
+            if (rows < 1 || rows > Dim) {
+                throw Error("rows is " + std::to_string(rows) + "; expected 1 to "
+                            + std::to_string(Dim));
+            }
+            static thread_local Eigen::MatrixXd means;
+            means = viewer::vertex_means<Dim>(
+                held, Eigen::Map<const Eigen::MatrixXd>(values, rows, held.cell_count()));
+            return static_cast<const double*>(means.data());
+        });
+}
+
 #else
 
 namespace {
@@ -244,6 +259,12 @@ int pent_slice_turned(const pent_stored_mesh* /*mesh*/,
 }
 
 const double* pent_mesh_strain(const pent_stored_mesh* /*mesh*/, const double* /*positions*/) {
+    return guarded<const double*>(nullptr, []() -> const double* { throw Error(kNoViewer); });
+}
+
+const double* pent_mesh_means(const pent_stored_mesh* /*mesh*/,
+                              const double* /*values*/,
+                              int32_t /*rows*/) {
     return guarded<const double*>(nullptr, []() -> const double* { throw Error(kNoViewer); });
 }
 

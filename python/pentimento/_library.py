@@ -237,6 +237,7 @@ _FUNCTIONS: dict[str, tuple[Any, tuple[Any, ...]]] = {
         (c_void_p, c_void_p, POINTER(Hyperplane), POINTER(Surface), POINTER(c_void_p)),
     ),
     "pent_mesh_strain": (c_void_p, (c_void_p, c_void_p)),
+    "pent_mesh_means": (c_void_p, (c_void_p, c_void_p, c_int32)),
     "pent_colors": (c_void_p, (c_char_p, c_void_p, c_int64, c_double, c_double)),
     "pent_free_mesh": (c_int, (c_void_p,)),
     "pent_read_frame": (c_void_p, (c_char_p,)),

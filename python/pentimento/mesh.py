@@ -294,22 +294,14 @@ class Mesh:
 
     def quantities(self) -> dict[str, Floats]:
         """All quantities at the vertices: vertex_fields, and of cell_fields of other names the mean
-        over the cells at each vertex by their volume. What a View has of the mesh."""
+        over the cells at each vertex by their volume. What a View has of the mesh. Raises an Error
+        for cell_fields of a mesh in two dimensions."""
         found = self.vertex_fields
-        of_cells = {name: kept for name, kept in self.cell_fields.items() if name not in found}
-        if not of_cells:
-            return found
-        corners = self.cells.ravel()
-        weights = np.repeat(self.cell_hypervolumes(), self.dimension + 1)
-        whole = np.bincount(corners, weights, self.vertex_count)
-        whole[whole == 0] = 1  # vertices of no cell have zeros
-        for name, values in of_cells.items():
-            columns = np.repeat(values.reshape(self.cell_count, -1), self.dimension + 1, axis=0)
-            means = [
-                np.bincount(corners, weights * column, self.vertex_count) / whole
-                for column in columns.T
-            ]
-            found[name] = np.column_stack(means).reshape(-1, *values.shape[1:])
+        for name, values in self.cell_fields.items():
+            if name not in found:
+                rows = 1 if values.ndim == 1 else values.shape[1]
+                means = library().pent_mesh_means(self._handle.number, address_of(values), rows)
+                found[name] = copy(means, (self.vertex_count, *values.shape[1:]), np.float64)
         return found
 
     def cell_hypervolumes(self) -> Floats:

@@ -337,6 +337,12 @@ TEST(PluginMeshesMisuse, GivesASentence) {
          },
          "mesh: 0 labels of the boundary, expected 1"},
         {[&] { return pent_mesh_extras_of(mesh, nullptr); }, "extras is NULL"},
+        {[&] { return found(pent_mesh_means(mesh, nullptr, 1)); }, "values is NULL"},
+        {[&] { return found(pent_mesh_means(mesh, nans.data(), 0)); },
+         "rows is 0; expected 1 to 4"},
+        {[&] { return found(pent_mesh_means(mesh, nans.data(), 5)); },
+         "rows is 5; expected 1 to 4"},
+        {[&] { return found(pent_mesh_means(mesh2, nans.data(), 1)); }, "2 dimensions"},
         {[&] { return store([](auto& m) { m.vertices = 0; }); }, "mesh: 0 vertices"},
         {[&] { return store([](auto& m) { m.cells = nullptr; }); }, "cells is NULL"},
         {[&] {
