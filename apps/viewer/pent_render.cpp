@@ -7,6 +7,7 @@
 #include <pent/viewer/render_run.h>
 #include <pent/viewer/run_folder.h>
 
+#include <algorithm>
 #include <charconv>
 #include <filesystem>
 #include <functional>
@@ -32,6 +33,17 @@ struct Arguments {
     bool no_caption = false;
     viewer::RenderRunOptions render;
 };
+
+// Where the pictures are of a command that was stopped, and what there is not.
+std::string left_by(const viewer::RenderRunReport& report, const viewer::RenderTargets& targets) {
+    std::string line;
+    for (const std::filesystem::path& whole : {targets.sheet, targets.movie, targets.picture}) {
+        const bool is_there =
+            std::find(report.files.begin(), report.files.end(), whole) != report.files.end();
+        line += whole.empty() || is_there ? "" : "; " + whole.string() + " is not written";
+    }
+    return line + (targets.folder.empty() ? "" : "; frames are in " + targets.folder.string());
+}
 
 void add_options(CLI::App& cli, Arguments& arguments) {
     add_view_options(cli, arguments.view);
@@ -181,6 +193,7 @@ Verdict render(Program& program, Arguments& arguments) {
     for (const std::string& file : report.files) {
         line += (&file == &report.files.front() ? " in " : ", ") + file;
     }
+    line += report.is_complete ? "" : left_by(report, targets);
     if (options.color != viewer::ColorBy::Body) {
         line += "; " + viewer::title_of(options.color, run.dimension) + ": "
                 + viewer::short_number(report.range.low) + " to "

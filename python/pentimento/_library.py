@@ -296,6 +296,16 @@ class Handle:
         self._free = weakref.finalize(self, free, number)
         self._free.atexit = False  # the process ends, and with it all there is
 
+    def __copy__(self) -> Handle:
+        return self  # freed once
+
+    def __deepcopy__(self, _: Any) -> Handle:
+        return self
+
+    def __reduce__(self) -> Any:
+        # The number would be that of something else in another process.
+        raise TypeError("cannot be pickled: it is in the memory of this process alone")
+
     def free(self) -> None:
         """Frees it now."""
         self._free()

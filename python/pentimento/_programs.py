@@ -7,7 +7,7 @@ import os
 import shutil
 import subprocess
 import tempfile
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
@@ -54,8 +54,10 @@ def _word(name: str, value: Any) -> str:
         return str(os.fspath(value))
     if hasattr(value, "tolist"):  # of numpy
         value = value.tolist()
-    if isinstance(value, (list, tuple)):
+    if isinstance(value, (list, tuple, range)):
         return ",".join(_word(name, part) for part in value)
+    if isinstance(value, Mapping):  # of rotations
+        return ",".join(f"{plane}:{_word(name, degrees)}" for plane, degrees in value.items())
     if isinstance(value, (int, float)) and not isinstance(value, bool):
         return repr(value)
     raise TypeError(f"{name}: found {type(value).__name__}; expected a number, text or a list")

@@ -31,7 +31,7 @@ def dumps(tables: Mapping[str, Any]) -> str:
 
 
 def _entries(where: str, table: Mapping[str, Any]) -> list[str]:
-    return [f"{_key(key)} = {_value(f'{where}.{key}', value)}" for key, value in table.items()]
+    return [f"{_key(key)} = {value_text(f'{where}.{key}', value)}" for key, value in table.items()]
 
 
 def _key(key: Any) -> str:
@@ -44,7 +44,8 @@ def _text(text: str) -> str:
     return json.dumps(text, ensure_ascii=False).replace("\x7f", "\\u007f")
 
 
-def _value(where: str, value: Any) -> str:
+def value_text(where: str, value: Any) -> str:
+    """A value as it stands behind its key. Raises a TypeError for what TOML does not have."""
     if hasattr(value, "tolist"):  # of numpy
         value = value.tolist()
     if isinstance(value, bool):
@@ -56,9 +57,8 @@ def _value(where: str, value: Any) -> str:
     if isinstance(value, (str, os.PathLike)):
         return _text(os.fspath(value))
     if isinstance(value, Mapping):
-        inside = (f"{_key(key)} = {_value(f'{where}.{key}', part)}" for key, part in value.items())
-        return "{ " + ", ".join(inside) + " }"
+        return "{ " + ", ".join(_entries(where, value)) + " }"
     if isinstance(value, (list, tuple)):
-        return "[" + ", ".join(_value(where, part) for part in value) + "]"
+        return "[" + ", ".join(value_text(where, part) for part in value) + "]"
     kind = type(value).__name__
     raise TypeError(f"{where}: found {kind}; expected a number, text, a list or a table")

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 
 class Error(Exception):
     """What the library refused, in its own words: one line that says where, what was found and
@@ -18,3 +20,8 @@ class ProgramError(Error):
         super().__init__(message)
         self.program = program
         self.exit_code = exit_code  #: None if it did not run.
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        # Pools of processes hand on what their workers raise, and wait for ever for what they
+        # cannot read.
+        return ProgramError, (str(self), self.program, self.exit_code)

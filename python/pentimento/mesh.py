@@ -326,19 +326,24 @@ class Mesh:
         return ratio
 
     def to_meshio(self) -> Any:
-        """A meshio.Mesh: of triangles or tetrahedra in two or three dimensions, of the boundary's
-        tetrahedra with w as point data in four; vertex_fields are point data, too. Raises an
-        ImportError where it is not installed."""
+        """A meshio.Mesh: of triangles or tetrahedra in two or three dimensions, with cell_fields,
+        the regions as "region" and fibers as "fiber", of the boundary's tetrahedra with w as point
+        data in four; vertex_fields are point data. Raises an ImportError where it is not
+        installed."""
         return _interop.mesh_to_meshio(self)
 
     @classmethod
     def from_meshio(cls, other: Any) -> Mesh:
-        """The tetrahedra of a meshio.Mesh, or its triangles where it has points of the plane."""
-        return cls(*_interop.mesh_from_meshio(other))
+        """The tetrahedra of a meshio.Mesh, or its triangles where it has points of the plane, with
+        what a mesh may have of its data: numbers and vectors by names of letters, digits and "_",
+        regions out of "region", "gmsh:physical" or "medit:ref", fibers out of "fiber". Points,
+        lines, and in space surfaces, are left out. Raises an Error for other cells, as hexahedra:
+        make_mesh() cuts those of files."""
+        return cls(**_interop.mesh_from_meshio(other))
 
     def to_pyvista(self) -> Any:
-        """A pyvista.UnstructuredGrid, as to_meshio(). Raises an ImportError where it is not
-        installed."""
+        """A pyvista.UnstructuredGrid, as to_meshio(), without data of cells. Raises an ImportError
+        where it is not installed."""
         return _interop.mesh_to_pyvista(self)
 
     @classmethod

@@ -7,7 +7,7 @@ import inspect
 import os
 import tempfile
 from collections import Counter
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -23,15 +23,17 @@ from .surface import Surface
 
 _Path = str | os.PathLike[str]
 _Words = str | float | Sequence[float] | Sequence[str]
+_Turns = str | Sequence[str] | Mapping[str, float]
+_Frames = str | int | Sequence[int] | Sequence[str]
 
 def render(
     what: Mesh | Run | _Path,
     *,
     sheet: bool = False,
     sheet_frames: int | None = None,
-    frames: str | int | None = None,
+    frames: _Frames | None = None,
     w: _Words | None = None,
-    rotate: _Words | None = None,
+    rotate: _Turns | None = None,
     normal: Sequence[float] | None = None,
     offset: _Words | None = None,
     project: str | None = None,
@@ -107,9 +109,9 @@ class Slice:
 def slice(
     what: Mesh | Run | _Path,
     *,
-    frames: str | int | None = None,
+    frames: _Frames | None = None,
     w: _Words | None = None,
-    rotate: _Words | None = None,
+    rotate: _Turns | None = None,
     normal: Sequence[float] | None = None,
     offset: _Words | None = None,
     project: str | None = None,
@@ -126,9 +128,8 @@ def slice(
     Raises a ProgramError with the line of pent-slice.
     """
     words = _programs.options(
-        frames=None if frames is None else str(frames), w=w, rotate=rotate, normal=normal,
-        offset=offset, project=project, eye=eye, color=color, keep_degenerate=keep_degenerate,
-        obstacles=obstacles, threads=threads,
+        frames=frames, w=w, rotate=rotate, normal=normal, offset=offset, project=project, eye=eye,
+        color=color, keep_degenerate=keep_degenerate, obstacles=obstacles, threads=threads,
     )  # fmt: skip
     with _programs.as_input(what) as path, tempfile.TemporaryDirectory() as folder:
         out = Path(folder, "slices")

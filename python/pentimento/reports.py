@@ -60,7 +60,8 @@ class Hit(NamedTuple):
 
 
 class State:
-    """All that goes from one step of a simulation to the next, kept in memory."""
+    """All that goes from one step of a simulation to the next, kept in the memory of this process:
+    it cannot be pickled. What is to go on later is a run, by Scene.run()."""
 
     __slots__ = ("_handle",)
 

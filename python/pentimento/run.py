@@ -122,18 +122,25 @@ class Run:
 
         Raises an IndexError if it is not there, an Error if it is damaged or of another mesh."""
         name = self._name(body)
-        frames = self.frames
-        count = len(frames)
         whole(number, -(2**62), 2**62, "frame")
-        if number < 0 and -number <= count:
-            number = frames[number]
-        if number not in frames:
-            known = f"{frames[0]} to {frames[-1]}" if frames else "none yet"
-            raise IndexError(f"{self.path}: has no frame {number}; there are {known}")
+        if number < 0 or not self._is_there(number):
+            frames = self.frames
+            if number < 0 and -number <= len(frames):
+                number = frames[number]
+            if number not in frames:
+                known = f"{frames[0]} to {frames[-1]}" if frames else "none yet"
+                raise IndexError(f"{self.path}: has no frame {number}; there are {known}")
         return self._read(number, name)
 
+    def _is_there(self, number: int) -> bool:
+        # Asks for its files alone: who reads all frames would list all of them for each.
+        return all(self._file(number, name).exists() for name in self.bodies)
+
+    def _file(self, number: int, name: str) -> Path:
+        return self.path / "frames" / f"{name}_{number:06d}.pent"
+
     def _read(self, number: int, name: str) -> Frame:
-        path = self.path / "frames" / f"{name}_{number:06d}.pent"
+        path = self._file(number, name)
         frame = Frame.read(path)
         if frame.mesh_crc32c != self.mesh(name).crc32c:
             raise Error(f"{path}: is a frame of another mesh than {self.path}/meshes/{name}.pent")

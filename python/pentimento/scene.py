@@ -217,7 +217,7 @@ class SceneBuilder:
         )
     """
 
-    def __init__(self, **scene: Any) -> None:
+    def __init__(self, /, **scene: Any) -> None:
         """scene  The keys of [scene]."""
         self._tables: dict[str, Any] = {"scene": _keys(scene)}
 
@@ -235,23 +235,23 @@ class SceneBuilder:
         """One more body; its mesh is a Mesh or a path."""
         return self.block("body", name=name, mesh=mesh, **keys)
 
-    def obstacle(self, **keys: Any) -> SceneBuilder:
+    def obstacle(self, /, **keys: Any) -> SceneBuilder:
         """Adds an `[[obstacle]]`: what stands, or moves as told, and does not bend."""
         return self.block("obstacle", **keys)
 
-    def constraint(self, **keys: Any) -> SceneBuilder:
+    def constraint(self, /, **keys: Any) -> SceneBuilder:
         """Adds a `[[constraint]]`: vertices of a body that stay or move as told."""
         return self.block("constraint", **keys)
 
-    def contact(self, **keys: Any) -> SceneBuilder:
+    def contact(self, /, **keys: Any) -> SceneBuilder:
         """Sets keys of `[contact]`: how bodies touch one another."""
         return self.table("contact", **keys)
 
-    def solver(self, **keys: Any) -> SceneBuilder:
+    def solver(self, /, **keys: Any) -> SceneBuilder:
         """Sets keys of `[solver]`: elements, integrator, tolerances."""
         return self.table("solver", **keys)
 
-    def damping(self, **keys: Any) -> SceneBuilder:
+    def damping(self, /, **keys: Any) -> SceneBuilder:
         """Sets keys of `[damping]`, `mass` in 1/s and `stiffness` in s."""
         return self.table("damping", **keys)
 

@@ -5,12 +5,12 @@ from __future__ import annotations
 import html
 import json
 import os
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from . import _programs
+from . import _programs, _toml
 from .errors import Error
 
 
@@ -53,7 +53,7 @@ class Frontier:
 def study(
     scene: str | os.PathLike[str],
     folder: str | os.PathLike[str],
-    vary: Mapping[str, Sequence[Any]],
+    vary: Mapping[str, Any],
     *,
     repeat: int | None = None,
     frames: int | None = None,
@@ -68,8 +68,9 @@ def study(
 ) -> Frontier:
     """Runs a scene file over settings and compares, by pent-study; its options are the keywords.
 
-    vary  Values by what is varied, as in {"dt": ["1/30", "1/60"], "integrator": "bdf2"}; a text is
-          one of them, or several with commas.
+    vary  Values by what is varied, as in {"dt": ["1/30", "1/60"], "integrator": "bdf2"}: numbers,
+          True and False, texts, lists and dicts, as in a Scene. A text alone is one of them, or
+          several with commas; a number or a dict alone is the one.
 
     A study that was interrupted goes on where it stopped. Raises a ProgramError with the line of
     pent-study.
@@ -83,12 +84,17 @@ def study(
     return Frontier(folder)
 
 
-def _axes(vary: Mapping[str, Sequence[Any]]) -> list[str]:
+def _axes(vary: Mapping[str, Any]) -> list[str]:
     words = []
     for name, values in vary.items():
-        text = values if isinstance(values, str) else ",".join(str(value) for value in values)
+        is_one = isinstance(values, (str, Mapping)) or not isinstance(values, Iterable)
+        text = ",".join(_value(name, value) for value in ([values] if is_one else values))
         words += ["--vary", f"{name}={text}"]
     return words
+
+
+def _value(name: str, value: Any) -> str:
+    return value if isinstance(value, str) else _toml.value_text(name, value)
 
 
 @dataclass(frozen=True)
@@ -115,7 +121,7 @@ class Study:
         cls,
         scene: str | os.PathLike[str],
         folder: str | os.PathLike[str],
-        vary: Mapping[str, Sequence[Any]],
+        vary: Mapping[str, Any],
         *,
         repeat: int | None = None,
         frames: int | None = None,

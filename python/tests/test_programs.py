@@ -1,6 +1,7 @@
 """The programs: every option is a keyword, and errors are exceptions with their line."""
 
 import inspect
+import multiprocessing
 import pathlib
 import re
 import subprocess
@@ -10,7 +11,7 @@ import pytest
 from conftest import box, two_boxes
 
 import pentimento
-from pentimento import Error, Image, Mesh, ProgramError, _programs, make_mesh, render
+from pentimento import Error, Image, Mesh, ProgramError, _programs, _toml, make_mesh, render
 
 
 def options_of(program: str) -> set[str]:
@@ -85,6 +86,14 @@ def test_a_program_that_refuses_raises_its_line(tmp_path):
         make_mesh("-x.obj")
 
 
+def test_what_a_program_refuses_in_a_worker_is_raised_by_the_pool():
+    with multiprocessing.get_context("fork").Pool(1) as pool:
+        refused = pool.map_async(make_mesh, ["nothing.obj"])
+        with pytest.raises(ProgramError, match="^nothing.obj: ") as caught:
+            refused.get(timeout=60)
+    assert caught.value.program == "pent-mesh" and caught.value.exit_code == 1
+
+
 def test_a_picture_is_an_array_and_a_file(tesseract, tmp_path):
     image = render(tesseract, size=(120, 80), w=0.5)
     assert image.array.shape == (80, 120, 3) and repr(image) == "<pentimento.Image: 120 x 80>"
@@ -120,6 +129,8 @@ def test_slices_of_the_program_are_those_of_the_library(tesseract):
     (both,) = pentimento.slice(tesseract, w=0.4, rotate=["xw:30", "yz:20"])
     assert both.surface.volume == pytest.approx(one.surface.volume, abs=1e-12)
     assert not np.allclose(both.surface.points, one.surface.points)
+    (same,) = pentimento.slice(tesseract, w=0.4, rotate={"xw": 30, "yz": np.float64(20)})
+    np.testing.assert_array_equal(same.surface.points, both.surface.points)
 
 
 def test_slices_of_a_run_have_body_frame_and_number(tesseract, tmp_path):
@@ -128,6 +139,9 @@ def test_slices_of_a_run_have_body_frame_and_number(tesseract, tmp_path):
     found = {(one.body, one.frame, one.index) for one in made}
     bodies = {(b, f, i) for b in ("low", "high") for f in (2, 4) for i in (0, 1)}
     assert bodies <= found and any(body.startswith("obstacle") for body, _, _ in found - bodies)
+    for frames in ([2, 4], range(2, 5, 2), np.array([2, 4]), ["2", 4]):
+        listed = pentimento.slice(run, frames=frames, w=[0.25, 0.5], obstacles=True)
+        assert {(one.body, one.frame, one.index) for one in listed} == found
     movie = pentimento.movie(run, tmp_path / "movie.mp4", size=(64, 48), fps=10)
     assert movie.stat().st_size > 0
     with pytest.raises(TypeError, match="colour: is no keyword of movie"):
@@ -191,6 +205,40 @@ def test_bodies_go_to_other_programs_and_come_back(tesseract, tmp_path):
     assert Mesh.read(tmp_path / "a.pent").hypervolume == pytest.approx(1, abs=1e-12)
     with pytest.raises(ProgramError, match="a.xyz"):
         pentimento.convert(tesseract, tmp_path / "a.xyz")
+
+
+def test_any_value_of_a_scene_is_varied(tmp_path, tesseract):
+    scene = two_boxes(tesseract).tables
+    for body in scene["body"]:
+        body["mesh"] = "a.pent"
+    tesseract.write(tmp_path / "a.pent")
+    (tmp_path / "s.toml").write_text(_toml.dumps(scene))
+    try:
+        _programs.find("pent-study")
+    except ProgramError:
+        pytest.skip("pent-study was not built")
+
+    def plan(name, vary):
+        pentimento.Study.prepare(tmp_path / "s.toml", tmp_path / name, vary)
+        return (tmp_path / name / "plan.json").read_bytes()
+
+    varied = {
+        "contact.self": [True, False],
+        "scene.gravity": [(0, -9.5, 0, 0), np.array([0.0, 0.0, 0.0, -1.0])],
+        "body.place.rotate": [[], [{"plane": "xw", "degrees": 5}]],
+        "body.material.young": 2e4,
+        "dt": np.array([1 / 30, 1 / 60]),
+    }
+    words = {
+        "contact.self": "true,false",
+        "scene.gravity": "[0, -9.5, 0, 0],[0.0, 0.0, 0.0, -1.0]",
+        "body.place.rotate": '[],[{ plane = "xw", degrees = 5 }]',
+        "body.material.young": "20000.0",
+        "dt": f"{1 / 30!r},{1 / 60!r}",
+    }
+    assert plan("varied", varied) == plan("words", words)
+    with pytest.raises(TypeError, match="dt: found NoneType; expected a number"):
+        plan("none", {"dt": [None]})
 
 
 def test_a_frontier_shows_itself(tmp_path, tesseract):

@@ -1,6 +1,7 @@
 """Run folders."""
 
 import json
+import pathlib
 import shutil
 
 import numpy as np
@@ -29,6 +30,26 @@ def test_a_run_has_what_the_folder_has(run):
     assert stacked.shape == (7, 16, 4)
     np.testing.assert_array_equal(stacked[3], frame.velocities)
     assert [f.number for f in run.iterate()] == list(run.frames)
+
+
+def test_reading_all_frames_does_not_list_the_folder_for_each(run, monkeypatch):
+    listings = []
+    glob = pathlib.Path.glob
+    monkeypatch.setattr(
+        pathlib.Path, "glob", lambda path, pattern: listings.append(pattern) or glob(path, pattern)
+    )
+    for read in (run.times, run.array, lambda: list(run.iterate()), lambda: run.frame(-1)):
+        listings.clear()
+        read()
+        assert len(listings) <= 1
+
+
+def test_a_frame_is_there_when_every_body_has_it(run, tmp_path):
+    growing = Run(shutil.copytree(run.path, tmp_path / "run"))
+    (growing.path / "frames" / "high_000006.pent").unlink()
+    with pytest.raises(IndexError, match="has no frame 6; there are 0 to 5"):
+        growing.frame(6, "low")
+    assert growing.frame(-1, "low").number == 5
 
 
 def test_frames_are_what_the_numpy_reader_reads(run, tmp_path):

@@ -84,6 +84,22 @@ def test_file_text_and_dict_are_one_scene(tmp_path, tesseract):
         read.mesh("b")
 
 
+def test_every_key_of_a_block_is_a_keyword(tesseract):
+    # All keys with their defaults, as of a scene that was checked; one of [contact] is `self`.
+    scene = two_boxes(tesseract)
+    full = scene.tables
+    built = SceneBuilder(**full["scene"])
+    for body in full["body"]:
+        built.body(**{**body, "mesh": tesseract})
+    built.contact(**full["contact"]).solver(**full["solver"])
+    for obstacle in full["obstacle"]:
+        built.obstacle(**obstacle)
+    others = full.keys() - {"scene", "body", "contact", "solver", "obstacle"}
+    for name in others:
+        built.table(name, **full[name])
+    assert built.build().tables == full
+
+
 def test_a_run_of_a_scene_built_in_python_runs_again_by_itself(tmp_path, tesseract):
     run = two_boxes(tesseract).run(tmp_path / "one")
     again = run.scene.run(tmp_path / "two")

@@ -1,5 +1,8 @@
 """Simulations: what pent-sim does, and what a host does besides."""
 
+import copy
+import gc
+import pickle
 import threading
 
 import numpy as np
@@ -96,6 +99,25 @@ def test_a_saved_state_goes_on_to_the_bit(scene):
         for body in scene.bodies:
             np.testing.assert_array_equal(one.positions(body), two.positions(body))
             np.testing.assert_array_equal(one.velocities(body), two.velocities(body))
+
+
+def test_a_state_is_of_its_process_and_its_copies_are_the_same(simulation):
+    # As a number it would be another state in another process.
+    simulation.step(3)
+    then = simulation.positions("high").copy()
+    state = simulation.save()
+    with pytest.raises(TypeError, match="cannot be pickled: it is in the memory of this process"):
+        pickle.dumps({"saved": state})
+    copies = [copy.copy(state), copy.deepcopy({"saved": state})["saved"]]
+    simulation.step(2)
+    for kept in copies:
+        simulation.restore(kept)
+        np.testing.assert_array_equal(simulation.positions("high"), then)
+        simulation.step()
+    del copies, kept
+    gc.collect()
+    simulation.restore(state)
+    np.testing.assert_array_equal(simulation.positions("high"), then)
 
 
 def test_contacts_and_energies_are_those_of_the_moment(simulation):

@@ -7,20 +7,18 @@
 #include <pent/error.h>
 #include <pent/output_file.h>
 #include <pent/pent_file.h>
+#include <pent/runs/recipe.h>
 
 #include <algorithm>
-#include <sstream>
 
 namespace pent::study {
 
 namespace fs = std::filesystem;
 
 std::vector<std::string> mesh_arguments(const std::string& recipe, const Settings& settings) {
-    std::istringstream text(recipe);
     std::vector<std::string> words;
-    std::string word;
-    while (text >> word) {
-        words.push_back(word);
+    for (const runs::RecipeWord& word : runs::words_of_recipe(recipe)) {
+        words.push_back(word.text);
     }
     for (const Setting& setting : settings) {
         if (!is_mesh_axis(setting.axis)) {
@@ -55,8 +53,7 @@ std::string origin_of(const std::vector<std::string>& arguments, const fs::path&
     std::string text;
     for (const std::string& argument : arguments) {
         text += argument;
-        const std::size_t value = argument.starts_with("--") ? argument.find('=') + 1 : 0;
-        const fs::path path = where / argument.substr(value);
+        const fs::path path = where / argument.substr(runs::value_in(argument));
         if (fs::is_regular_file(path)) {
             text += " " + fingerprint(path);
         }

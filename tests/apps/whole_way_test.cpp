@@ -201,6 +201,25 @@ TEST_F(WholeWay, SlicesAndPicturesComeOut) {
     EXPECT_EQ(text_of(folder_ / "s.png").substr(1, 3), "PNG");
 }
 
+// A movie is whole or not there; pictures of frames stay.
+TEST_F(WholeWay, StoppedPicturesSayWhatIsLeft) {
+    const Outcome box = run_program("pent-mesh --box 1,1,1,1 -o " + path("box.pent"));
+    ASSERT_EQ(box.exit_code, 0) << box.err;
+    const std::string many = path("box.pent") + " --sweep --w -0.4:0.4:5000 --size 64x48 -o ";
+    const Outcome pictures = run_program("pent-render " + many + path("pictures/"),
+                                         test::interrupt_at(folder_ / "pictures/000000_s00.png"));
+    EXPECT_EQ(pictures.exit_code, 3) << pictures.err;
+    expect_contains(pictures.out, {"stopped: ", "; frames are in " + path("pictures")});
+    if (std::system("ffmpeg -version >/dev/null 2>&1") != 0) {  // NOLINT(cert-env33-c)
+        GTEST_SKIP() << "there is no ffmpeg";
+    }
+    const Outcome movie = run_program("pent-render " + many + path("movie.mp4"),
+                                      test::interrupt_at(folder_ / ".movie.mp4.*"));
+    EXPECT_EQ(movie.exit_code, 3) << movie.err;
+    expect_contains(movie.out, {"stopped: ", "; " + path("movie.mp4") + " is not written"});
+    EXPECT_FALSE(std::filesystem::exists(folder_ / "movie.mp4"));
+}
+
 // A limit on file size stands for a full disk: the same calls fail, in the same place.
 TEST_F(WholeWay, FullDiskIsOneLineAndLeavesNothingHalfWritten) {
     make_mesh();

@@ -254,6 +254,12 @@ TEST(Explain, NamesSmoothedElementsWhereTheyHelp) {
     EXPECT_EQ(says(ElementKind::Smoothed).find("lock"), std::string::npos);
     scene.bodies[0].material.lame = lame_from_young(4, 1e5, 0.33);
     expect_contains(says(ElementKind::Smoothed), {"even smoothed elements lock"});
+    scene.activations = {{.body = "box", .select = {EverythingSelection{}}, .stretch = 1.1}};
+    const std::string with_muscle = says(ElementKind::Linear);
+    expect_contains(with_muscle, {"lock", "take elements = \"quadratic\""});
+    EXPECT_EQ(with_muscle.find("smoothed"), std::string::npos);  // which refuse activations
+    EXPECT_THROW(says(ElementKind::Smoothed), Error);
+    scene.activations.clear();
     write_mesh(mesh, pent::test::quadratic_kuhn_box<4>({1, 1, 1, 1}, {1, 1, 1, 1}));
     expect_contains(says(ElementKind::Linear), {"or \"quadratic\" with a mesh of pent-mesh"});
     EXPECT_EQ(says(ElementKind::Quadratic).find("lock"), std::string::npos);

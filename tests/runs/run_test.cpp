@@ -106,6 +106,17 @@ TEST(Run, WritesRecipesThatFindTheirFilesFromItsFolder) {
         run(scene, {.folder = folder / "deep/run", .scene_file = folder / "scene.toml"}));
     EXPECT_EQ(read_scene(folder / "deep/run/scene.toml").bodies[0].recipe,
               "../../model.off  --thickness 1\t--profile none.csv ");
+    std::filesystem::create_directory(folder / "my models");
+    std::ofstream(folder / "my models/lean.txt") << "0 1\n1 1\n";
+    scene.bodies[0].recipe = "\"model.off\" --profile='my models/lean.txt' 'my models/none'";
+    static_cast<void>(
+        run(scene, {.folder = folder / "my models/run", .scene_file = folder / "scene.toml"}));
+    EXPECT_EQ(read_scene(folder / "my models/run/scene.toml").bodies[0].recipe,
+              "../../model.off --profile=../lean.txt 'my models/none'");
+    static_cast<void>(
+        run(scene, {.folder = folder / "deep/quotes", .scene_file = folder / "scene.toml"}));
+    EXPECT_EQ(read_scene(folder / "deep/quotes/scene.toml").bodies[0].recipe,
+              "../../model.off --profile=\"../../my models/lean.txt\" 'my models/none'");
     const std::string absolute = (folder / "model.off").string() + " --layers 2";
     scene.bodies[0].recipe = absolute;
     static_cast<void>(run(scene, {.folder = folder / "run", .scene_file = folder / "scene.toml"}));

@@ -20,6 +20,11 @@ TEST(MeshArguments, TakeTheLevelInPlaceOfTheRecipesOwn) {
               (Words{"a.obj", "--subdivide=2"}));
 }
 
+TEST(MeshArguments, MayHaveBlanksWithinQuotes) {
+    EXPECT_EQ(mesh_arguments("'my model.obj' --profile=\"a b.txt\" --layers 4", {{"layers", "8"}}),
+              (std::vector<std::string>{"my model.obj", "--profile=a b.txt", "--layers", "8"}));
+}
+
 TEST(WithMeshes, KeepsMeshesThatAreThere) {
     const pent::test::TempFolder folder;
     const simulator::Scene scene = runs::read_scene(test::write_bar(folder));

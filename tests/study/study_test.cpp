@@ -462,11 +462,11 @@ TEST(RunStudy, MakesAMeshAnewWhenTheModelOfItsRecipeHasChanged) {
     }
     const TempFolder folder;
     const auto write_model = [&](const char* height) {  // a tetrahedron
-        std::ofstream(folder / "model.off") << "OFF\n4 4 0\n0 0 0\n1 0 0\n0 1 0\n0 0 " << height
-                                            << "\n3 0 2 1\n3 0 1 3\n3 0 3 2\n3 1 2 3\n";
+        std::ofstream(folder / "my model.off") << "OFF\n4 4 0\n0 0 0\n1 0 0\n0 1 0\n0 0 " << height
+                                               << "\n3 0 2 1\n3 0 1 3\n3 0 3 2\n3 1 2 3\n";
     };
     std::ofstream(folder / "model.toml") << "[[body]]\nname = \"a\"\nmesh = \"none.pent\"\n"
-                                            "recipe = \"model.off --thickness 1\"\n";
+                                            "recipe = \"'my model.off' --thickness 1\"\n";
     const StudyOptions options{.scene = folder / "model.toml",
                                .folder = folder / "study",
                                .vary = {"layers=1"},

@@ -55,6 +55,7 @@ Lines on_warnings(const Trial& trial) {
 Lines on_bending(const Trial& trial) {
     const Scene& scene = trial.scene;
     const bool is_linear = scene.solver.elements == ElementKind::Linear;
+    const bool may_be_smoothed = is_linear && scene.activations.empty();
     Lines lines;
     for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
         const Body& body = scene.bodies[i];
@@ -75,7 +76,7 @@ Lines on_bending(const Trial& trial) {
             " %.0f%% of what it should be; take elements = %s\"quadratic\" with a mesh of"
             " pent-mesh --quadratic, refine, or lower poisson",
             body.name.c_str(), cells.c_str(), poisson, is_linear ? "linear" : "even smoothed",
-            100 * part, is_linear ? "\"smoothed\", or " : ""));
+            100 * part, may_be_smoothed ? "\"smoothed\", or " : ""));
     }
     return lines;
 }

@@ -1,8 +1,8 @@
 #include "run/relocated.h"
 
-#include <algorithm>
+#include <pent/runs/recipe.h>
+
 #include <string>
-#include <string_view>
 #include <system_error>
 
 namespace pent::runs {
@@ -15,24 +15,25 @@ std::string path_from(const fs::path& folder, const fs::path& path) {
     return fs::proximate(fs::absolute(path), fs::absolute(folder)).string();
 }
 
-// Words of a recipe are paths where there is such a file; none has spaces in it. All else stays as
-// it is, spaces included: a run keeps the scene as it was written.
+// Arguments of a recipe, and their values, are paths where there is such a file. All else stays as
+// it is, blanks included: a run keeps the scene as it was written.
 std::string relocated_recipe(const std::string& recipe,
                              const fs::path& origin,
                              const fs::path& folder) {
-    constexpr std::string_view kSpaces = " \t\n\v\f\r";
     std::string moved;
-    for (std::size_t end = 0; end < recipe.size();) {
-        const std::size_t begin = std::min(recipe.find_first_not_of(kSpaces, end), recipe.size());
-        moved.append(recipe, end, begin - end);
-        end = std::min(recipe.find_first_of(kSpaces, begin), recipe.size());
-        const std::string word = recipe.substr(begin, end - begin);
+    std::size_t end = 0;
+    for (const RecipeWord& word : words_of_recipe(recipe)) {
+        const std::size_t value = value_in(word.text);
+        const fs::path path = word.text.substr(value);
         std::error_code ignored;
-        const bool is_file = !word.empty() && fs::path(word).is_relative()
-                             && fs::is_regular_file(origin / word, ignored);
-        moved += is_file ? path_from(folder, origin / word) : word;
+        const bool is_file =
+            !path.empty() && path.is_relative() && fs::is_regular_file(origin / path, ignored);
+        moved.append(recipe, end, word.begin - end);
+        moved += is_file ? recipe_word(path_from(folder, origin / path), word.text.substr(0, value))
+                         : recipe.substr(word.begin, word.end - word.begin);
+        end = word.end;
     }
-    return moved;
+    return moved.append(recipe, end);
 }
 
 }  // namespace
