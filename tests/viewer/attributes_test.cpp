@@ -48,13 +48,14 @@ TEST(VertexStrain, OfAUniformStretchIsThatOfItsMatrix) {
 }
 
 TEST(VertexForce, IsTheLengthOfTheContactForce) {
+    const Body<4> body;
     Frame<4> frame;
     frame.positions = Positions<4>::Zero(4, 2);
-    EXPECT_TRUE(lacks(frame, ColorBy::Force));
+    EXPECT_TRUE(lacks(body, frame, ColorBy::Force));
     frame.contact_forces.resize(4, 2);
     frame.contact_forces.col(0) << 1, 1, 1, 1;
     frame.contact_forces.col(1) << 0, 3, 0, 4;
-    EXPECT_FALSE(lacks(frame, ColorBy::Force));
+    EXPECT_FALSE(lacks(body, frame, ColorBy::Force));
     EXPECT_EQ(vertex_force<4>(frame), Eigen::Vector2d(2, 5));
 }
 

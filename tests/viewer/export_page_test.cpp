@@ -5,6 +5,7 @@
 #include <pent/geometry.h>
 #include <pent/obstacles_file.h>
 #include <pent/viewer/attributes.h>
+#include <pent/viewer/coloring.h>
 #include <pent/viewer/export_page.h>
 
 #include <gtest/gtest.h>
@@ -79,8 +80,8 @@ TEST_F(AnExportedPage, HoldsEveryPositionToWithinHalfAStep) {
     EXPECT_EQ(report.bytes, static_cast<std::int64_t>(page.size()));
     EXPECT_EQ(page.find("<!-- run -->"), std::string::npos);
     expect_contains(element(page, "pent-run"),
-                    {"\"version\":1", "\"title\":\"twist\"", "\"name\":\"a\\u003cb\"",
-                     "\"dimension\":4", "\"force\":null", "{\"frame\":2,\"time\":0.2"});
+                    {"\"version\":2", "\"title\":\"twist\"", "\"name\":\"a\\u003cb\"",
+                     "\"dimension\":4", "\"fields\":[]", "{\"frame\":2,\"time\":0.2"});
     const RunFolder run = open_run(folder_ / "twist");
     const auto bodies = load_bodies<4>(run);
     Eigen::AlignedBox4d box;
@@ -118,7 +119,84 @@ TEST_F(AnExportedPage, OfAMeshHasOneFrameWithoutSpeed) {
     const ExportReport report = make(folder_ / "twist" / "meshes" / "a<b.pent", {});
     EXPECT_TRUE(report.is_complete);
     expect_contains(element(text_of(folder_ / "out.html"), "pent-run"),
-                    {"\"speed\":null,\"strain\":null", "\"frames\":[{\"frame\":0,\"time\":0}]"});
+                    {"\"quantities\":[],\"fields\":[]", "\"frames\":[{\"frame\":0,\"time\":0}]"});
+}
+
+// Those of frames in every frame, those of meshes once: each to half a step of the range of all
+// frames and bodies.
+TEST_F(AnExportedPage, HoldsFieldsThatAllBodiesHave) {
+    const fs::path at = folder_ / "fields";
+    make_folder(at / "meshes");
+    make_folder(at / "frames");
+    const SimplexMesh<4> mesh = test::jittered_box({2, 2, 2, 2}, 5);
+    for (const std::string body : {"a", "b"}) {
+        const double offset = body == "a" ? -3 : 5;
+        MeshExtras<4> extras;
+        extras.vertex_fields = {{"only_" + body, mesh.positions}};
+        extras.cell_fields = {
+            {"phase", Eigen::RowVectorXd::LinSpaced(mesh.cell_count(), 0, 1).array() + offset}};
+        const std::uint32_t crc = write_mesh<4>(at / "meshes" / (body + ".pent"), mesh, {}, extras);
+        for (const int number : {0, 1}) {
+            Frame<4> frame;
+            frame.positions = mesh.positions;
+            frame.fields = {{"heat", mesh.positions.row(3).array() * (1 + number) + offset},
+                            {"reaction", mesh.positions * (2 - number)}};
+            frame.mesh_name = body + ".pent";
+            frame.mesh_crc = crc;
+            frame.frame = static_cast<std::uint64_t>(number);
+            write_frame<4>(at / "frames" / frame_file_name(body, number), frame);
+        }
+    }
+    ASSERT_TRUE(make(at, {}).is_complete);
+    const std::string page = text_of(folder_ / "out.html");
+    const RunFolder run = open_run(at);
+    const auto bodies = load_bodies<4>(run);
+    const auto values = [&](std::size_t body, int frame, const std::string& name) {
+        return vertex_values<4>(bodies[body], load_frame<4>(run, bodies[body], frame),
+                                coloring_of(name));
+    };
+    const auto shell = static_cast<std::size_t>(bodies[0].mesh.vertex_count() - 1);
+    const auto expect_bytes = [&](const std::string& bytes, std::size_t from, std::size_t body,
+                                  int frame, const std::string& name) {
+        ColorRange range = {1e9, -1e9};
+        for (const std::size_t b : {0U, 1U}) {
+            for (const int f : {0, 1}) {
+                const Eigen::VectorXd all = values(b, f, name);
+                range = joined(range, {all.minCoeff(), all.maxCoeff()});
+            }
+        }
+        const Eigen::VectorXd expected = values(body, frame, name);
+        Eigen::Index vertex = 0;
+        for (std::size_t v = 0; v < shell; ++v, ++vertex) {
+            if (bodies[0].boundary.vertex_begin[vertex]
+                == bodies[0].boundary.vertex_begin[vertex + 1]) {
+                ++vertex;
+            }
+            const double size = range.high - range.low;
+            const double found =
+                range.low + size * static_cast<unsigned char>(bytes.at(from + v)) / 255;
+            EXPECT_NEAR(found, expected[vertex], size / 509) << name << " " << v;
+        }
+    };
+    // Strain, reaction and heat; bodies one after the other, positions in front.
+    for (const int frame : {0, 1}) {
+        const std::string bytes = decoded(element(page, "pent-frame-" + std::to_string(frame)));
+        ASSERT_EQ(bytes.size(), 2 * shell * (8 + 3));
+        for (const std::size_t body : {0U, 1U}) {
+            const std::size_t begin = body * shell * 11 + shell * 8;
+            expect_bytes(bytes, begin + shell, body, frame, "reaction");
+            expect_bytes(bytes, begin + 2 * shell, body, frame, "heat");
+        }
+    }
+    const std::string once = decoded(element(page, "pent-fields"));
+    ASSERT_EQ(once.size(), 2 * shell);
+    expect_bytes(once, 0, 0, 0, "phase");
+    expect_bytes(once, shell, 1, 0, "phase");
+    const std::string said = element(page, "pent-run");
+    EXPECT_EQ(said.find("only_"), std::string::npos);
+    EXPECT_LT(said.find("\"strain\""), said.find("\"reaction\""));
+    EXPECT_LT(said.find("\"reaction\""), said.find("\"heat\""));
+    EXPECT_LT(said.find("\"fields\":[{\"name\":\"phase\""), said.size());
 }
 
 TEST_F(AnExportedPage, HoldsObstaclesOfEveryFrameAndOnceWhereNoneMoves) {

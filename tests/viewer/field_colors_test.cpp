@@ -106,6 +106,22 @@ TEST(FieldColors, AreThoseOfTheFrameWhereItHasTheQuantityToo) {
     EXPECT_EQ(field_colorings<4>(body, frame).size(), 2U);
 }
 
+// As the bodies have it that pent-mesh makes of a motion: there is no other frame.
+TEST(FieldColors, AreThoseOfTheMeshWherePentSimWritesTheQuantityIntoFrames) {
+    const Fields given;
+    Body<4> body;
+    Frame<4> frame;
+    frame.positions = given.mesh.positions;
+    for (const ColorBy::Kind by : {ColorBy::Reaction, ColorBy::EnergyDensity}) {
+        EXPECT_TRUE(lacks(body, frame, by));
+        EXPECT_THROW((void)vertex_values<4>(body, frame, by), Error);
+        body.fields = {{name_of(by), given.slope * given.mesh.positions}};
+        EXPECT_FALSE(lacks(body, frame, by));
+        EXPECT_EQ(vertex_values<4>(body, frame, by), body.fields[0].values.transpose());
+        EXPECT_TRUE(field_colorings<4>(body, frame).empty());
+    }
+}
+
 TEST(FieldColors, OfNoQuantityAreRefusedWithThoseThereAre) {
     const Fields given;
     Body<4> body;

@@ -178,6 +178,50 @@ TEST_F(RunSiteOf, AModelOfOtherProgramsGivesThatFileAsItIs) {
     }
 }
 
+// What the model names in its folder or below, and nothing else that lies there, or that a link or
+// a name leads to.
+TEST_F(RunSiteOf, AModelGivesTheFilesOfItsBuffers) {
+    const std::string json =
+        R"({"buffers":[{"uri":"points.bin"},{"uri":"./parts/a b.bin"},{"byteLength":4},)"
+        R"({"uri":"data:application/octet-stream;base64,AAAA"},{"uri":"link.bin"},)"
+        R"({"uri":"gone.bin"},)"
+        R"({"uri":"../secret.pent"},{"uri":")"
+        + (folder_ / "secret.pent").string() + R"("},{"uri":""},{"uri":"parts"}]})";
+    const fs::path models = folder_ / "models";
+    make_folder(models / "parts");
+    write_text(models / "points.bin", "points");
+    write_text(models / "other.bin", "not named");
+    write_text(models / "parts/a b.bin", "of a part");
+    fs::create_symlink(folder_ / "secret.pent", models / "link.bin");
+    write_text(models / "cell.g4tf", json);
+    // As text in the first chunk: 16 bytes of the file, 16 of the chunk, which may have a "{" in
+    // their lengths.
+    write_text(models / "cell.g4b", "G4MF" + std::string(12, '{') + "JSON" + std::string(12, '{')
+                                        + json + std::string(9, '\0'));
+    for (const std::string model : {"cell.g4tf", "cell.g4b"}) {
+        const RunSite site(page_, models / model);
+        const auto get = [&](const std::string& path) {
+            return site.answer({"GET", "/" + model + "/" + path, "localhost:8080"}, kPort);
+        };
+        EXPECT_EQ(get("points.bin").body, "points") << model;
+        EXPECT_EQ(get("points.bin").type, "application/octet-stream");
+        EXPECT_EQ(get("parts/a b.bin").body, "of a part") << model;
+        for (const std::string& path :
+             {std::string("other.bin"), std::string("link.bin"), std::string("gone.bin"),
+              std::string("../secret.pent"), (folder_ / "secret.pent").string(), std::string(),
+              std::string("parts"), std::string("parts/"), std::string("scene.toml"),
+              std::string("cell.g4t")}) {
+            EXPECT_EQ(get(path).status, 404) << model << " " << path;
+        }
+    }
+    for (const std::string text : {"", "G4MF", "{", "[]", R"({"buffers":[{"uri":7}]})", "null"}) {
+        write_text(models / "bad.g4tf", text);
+        const RunSite site(page_, models / "bad.g4tf");
+        const HttpRequest request{"GET", "/bad.g4tf/points.bin", "localhost:8080"};
+        EXPECT_EQ(site.answer(request, kPort).status, 404) << text;
+    }
+}
+
 TEST_F(RunSiteOf, WhatIsNoPageIsRefused) {
     using pent::test::error_of;
     const fs::path run = folder_ / "my run";

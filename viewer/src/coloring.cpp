@@ -98,24 +98,47 @@ template <int Dim>
                 + listed);
 }
 
-// Of the frame, or else of the mesh.
+// Of the frame, or else of the mesh; null if neither has it.
+template <int Dim>
+const VertexField* field_of(const Body<Dim>& body,
+                            const Frame<Dim>& frame,
+                            const std::string& name) {
+    for (const std::vector<VertexField>* fields : {&frame.fields, &body.fields}) {
+        for (const VertexField& field : *fields) {
+            if (field.name == name) {
+                return &field;
+            }
+        }
+    }
+    return nullptr;
+}
+
 template <int Dim>
 Eigen::VectorXd field_values(const Body<Dim>& body,
                              const Frame<Dim>& frame,
                              const std::string& name) {
-    for (const std::vector<VertexField>* fields : {&frame.fields, &body.fields}) {
-        for (const VertexField& field : *fields) {
-            if (field.name == name) {
-                return field.values.rows() == 1
-                           ? Eigen::VectorXd(field.values.transpose())
-                           : Eigen::VectorXd(field.values.colwise().norm().transpose());
-            }
-        }
+    const VertexField* field = field_of(body, frame, name);
+    if (field == nullptr) {
+        refuse_field(body, frame, name);
     }
-    refuse_field(body, frame, name);
+    return field->values.rows() == 1 ? Eigen::VectorXd(field->values.transpose())
+                                     : Eigen::VectorXd(field->values.colwise().norm().transpose());
 }
 
 }  // namespace
+
+template <int Dim>
+bool lacks(const Body<Dim>& body, const Frame<Dim>& frame, const ColorBy& by) {
+    switch (by.kind) {
+        case ColorBy::Force:
+            return frame.contact_forces.cols() == 0;
+        case ColorBy::Reaction:
+        case ColorBy::EnergyDensity:
+            return field_of(body, frame, name_of(by)) == nullptr;
+        default:
+            return false;
+    }
+}
 
 template <int Dim>
 std::vector<ColorBy> field_colorings(const Body<Dim>& body, const Frame<Dim>& frame) {
@@ -134,7 +157,7 @@ std::vector<ColorBy> field_colorings(const Body<Dim>& body, const Frame<Dim>& fr
 
 template <int Dim>
 Eigen::VectorXd vertex_values(const Body<Dim>& body, const Frame<Dim>& frame, const ColorBy& by) {
-    if (lacks(frame, by)) {
+    if (lacks(body, frame, by)) {
         const bool is_force = by == ColorBy::Force;
         const std::string name(is_force ? "contact_force" : name_of(by));
         throw Error("frame " + std::to_string(frame.frame) + " of \"" + body.name + "\" has no "
@@ -204,6 +227,8 @@ ColorRange joined(const ColorRange& a, const ColorRange& b) {
     return {std::min(a.low, b.low), std::max(a.high, b.high)};
 }
 
+template bool lacks<3>(const Body<3>&, const Frame<3>&, const ColorBy&);
+template bool lacks<4>(const Body<4>&, const Frame<4>&, const ColorBy&);
 template Eigen::VectorXd vertex_values<3>(const Body<3>&, const Frame<3>&, const ColorBy&);
 template Eigen::VectorXd vertex_values<4>(const Body<4>&, const Frame<4>&, const ColorBy&);
 template std::vector<ColorBy> field_colorings<3>(const Body<3>&, const Frame<3>&);

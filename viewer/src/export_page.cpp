@@ -15,7 +15,6 @@
 #include <Eigen/Geometry>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <functional>
 #include <limits>
@@ -29,8 +28,13 @@ namespace {
 constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
 constexpr int kSteps = 65535;     // of a coordinate
 constexpr int kColorSteps = 255;  // of a quantity
-constexpr std::array<ColorBy::Kind, 3> kQuantities = {ColorBy::Speed, ColorBy::Strain,
-                                                      ColorBy::Force};
+
+/// What the bodies can be colored by, and over what its steps go.
+struct Quantity {
+    ColorBy by;
+    ColorRange range = {std::numeric_limits<double>::infinity(),
+                        -std::numeric_limits<double>::infinity()};
+};
 
 // The vertices of a body that its boundary has, and their new numbers.
 struct Shell {
@@ -79,16 +83,20 @@ public:
         for (const Body<Dim>& body : bodies_) {
             shells_.push_back(shell_of<Dim>(body));
         }
-        const Frame<Dim> first = load_frame<Dim>(run, bodies_.front(), options.frames.front());
-        for (const ColorBy::Kind by : kQuantities) {
-            const bool is_there = by == ColorBy::Speed   ? first.velocities.cols() > 0
-                                  : by == ColorBy::Force ? !lacks(first, by)
-                                                         : !run.is_mesh;
-            if (is_there) {
-                quantities_.push_back(by);
+        for (const Body<Dim>& body : bodies_) {
+            first_.push_back(load_frame<Dim>(run, body, options.frames.front()));
+        }
+        std::vector<ColorBy> all = all_colorings();
+        const std::vector<ColorBy> fields = field_colorings(bodies_.front(), first_.front());
+        all.insert(all.end(), fields.begin(), fields.end());
+        for (const ColorBy& by : all) {
+            if (by != ColorBy::Body && by != ColorBy::W && have(by)) {
+                (is_of_meshes(by) ? fields_ : quantities_).push_back({by});
             }
         }
-        maxima_.resize(quantities_.size());
+        for (std::size_t i = 0; i < bodies_.size(); ++i) {
+            widen(fields_, bodies_[i], first_[i]);
+        }
     }
 
     void check_size(const std::filesystem::path& output, std::int64_t page_bytes) const {
@@ -102,7 +110,14 @@ public:
             const auto vertices = static_cast<std::int64_t>(shell.vertices.size());
             const auto quantities = static_cast<std::int64_t>(quantities_.size());
             a_frame += vertices * (2 * Dim + quantities) * 4 / 3;
-            once += static_cast<std::int64_t>(shell.facets.size()) * 4 * 4 / 3;
+            const auto fields = static_cast<std::int64_t>(fields_.size());
+            once +=
+                (static_cast<std::int64_t>(shell.facets.size()) * 4 + vertices * fields) * 4 / 3;
+        }
+        for (const std::vector<Quantity>* list : {&quantities_, &fields_}) {
+            for (const Quantity& one : *list) {
+                once += kAround + static_cast<std::int64_t>(name_of(one.by).size());
+            }
         }
         const auto count = static_cast<std::int64_t>(options_.frames.size());
         const std::int64_t bytes = once + count * a_frame;
@@ -128,22 +143,18 @@ public:
             }
             times_.resize(std::max(times_.size(), frames_seen_ + 1));
             times_[frames_seen_] = moment.time;
-            for (std::size_t i = 0; i < quantities_.size(); ++i) {
-                maxima_[i] = std::max(maxima_[i],
-                                      vertex_values<Dim>(body, moment, quantities_[i]).maxCoeff());
-            }
+            widen(quantities_, body, moment);
         }
         obstacles_.push_back(load_obstacles<Dim>(run_, frame));
         ++frames_seen_;
     }
 
     [[nodiscard]] std::string description(const std::string& title) const {
-        std::string text = "<script type=\"application/json\" id=\"pent-run\">{\"version\":1,";
+        std::string text = "<script type=\"application/json\" id=\"pent-run\">{\"version\":2,";
         text += "\"title\":" + json_string(title) + ",\"dimension\":" + std::to_string(Dim)
                 + ",\"low\":" + numbers(box_.min()) + ",\"high\":" + numbers(box_.max())
-                + ",\"maxima\":{\"speed\":" + maximum(ColorBy::Speed)
-                + ",\"strain\":" + maximum(ColorBy::Strain)
-                + ",\"force\":" + maximum(ColorBy::Force) + "},\"bodies\":[";
+                + ",\"quantities\":" + ranges(quantities_) + ",\"fields\":" + ranges(fields_)
+                + ",\"bodies\":[";
         for (std::size_t i = 0; i < bodies_.size(); ++i) {
             text += (i == 0 ? "{\"name\":" : ",{\"name\":") + json_string(bodies_[i].name)
                     + ",\"vertices\":" + std::to_string(shells_[i].vertices.size())
@@ -164,7 +175,11 @@ public:
             bytes.append(reinterpret_cast<const char*>(shell.facets.data()),
                          shell.facets.size() * sizeof(std::uint32_t));
         }
-        return data_element("pent-facets", bytes);
+        std::string values;
+        for (std::size_t i = 0; i < bodies_.size(); ++i) {
+            append_values(values, fields_, i, first_[i]);
+        }
+        return data_element("pent-facets", bytes) + data_element("pent-fields", values);
     }
 
     [[nodiscard]] std::string frame(std::size_t place) const {
@@ -172,14 +187,7 @@ public:
         for (std::size_t i = 0; i < bodies_.size(); ++i) {
             const Frame<Dim> moment = load_frame<Dim>(run_, bodies_[i], options_.frames[place]);
             append_positions(bytes, moment.positions, shells_[i]);
-            for (std::size_t k = 0; k < quantities_.size(); ++k) {
-                const Eigen::VectorXd values =
-                    vertex_values<Dim>(bodies_[i], moment, quantities_[k]);
-                const double scale = maxima_[k] > 0 ? kColorSteps / maxima_[k] : 0;
-                for (const std::uint32_t vertex : shells_[i].vertices) {
-                    bytes += static_cast<char>(std::lround(values[vertex] * scale));
-                }
-            }
+            append_values(bytes, quantities_, i, moment);
         }
         return data_element("pent-frame-" + std::to_string(place), bytes);
     }
@@ -192,12 +200,58 @@ private:
         return list.empty() ? 0 : static_cast<std::int64_t>(obstacles_text<Dim>(list).size());
     }
 
-    [[nodiscard]] std::string maximum(const ColorBy& by) const {
-        const auto found = std::find(quantities_.begin(), quantities_.end(), by);
-        return found == quantities_.end()
-                   ? "null"
-                   : formatted("%.9g",
-                               maxima_[static_cast<std::size_t>(found - quantities_.begin())]);
+    // Whether all bodies have it, which no mesh has of speed and strain.
+    [[nodiscard]] bool have(const ColorBy& by) const {
+        for (std::size_t i = 0; i < bodies_.size(); ++i) {
+            const std::vector<ColorBy> fields = field_colorings(bodies_[i], first_[i]);
+            const bool is_there = by == ColorBy::Speed    ? first_[i].velocities.cols() > 0
+                                  : by == ColorBy::Strain ? !run_.is_mesh
+                                  : by.kind == ColorBy::Field
+                                      ? std::count(fields.begin(), fields.end(), by) > 0
+                                      : !lacks(bodies_[i], first_[i], by);
+            if (!is_there) {
+                return false;
+            }
+        }
+        return true;
+    }
+
+    [[nodiscard]] bool is_of_meshes(const ColorBy& by) const {
+        return by != ColorBy::Speed && by != ColorBy::Strain && by != ColorBy::Force
+               && std::all_of(first_.begin(), first_.end(), [&](const Frame<Dim>& frame) {
+                      return find_field(frame, name_of(by)) == nullptr;
+                  });
+    }
+
+    static void widen(std::vector<Quantity>& quantities,
+                      const Body<Dim>& body,
+                      const Frame<Dim>& moment) {
+        for (Quantity& one : quantities) {
+            const Eigen::VectorXd values = vertex_values<Dim>(body, moment, one.by);
+            one.range = joined(one.range, {values.minCoeff(), values.maxCoeff()});
+        }
+    }
+
+    [[nodiscard]] static std::string ranges(const std::vector<Quantity>& quantities) {
+        std::string text = "[";
+        for (const auto& [by, range] : quantities) {
+            text += (text.size() > 1 ? ",{\"name\":" : "{\"name\":") + json_string(name_of(by))
+                    + formatted(",\"low\":%.9g,\"high\":%.9g}", range.low, range.high);
+        }
+        return text + "]";
+    }
+
+    void append_values(std::string& bytes,
+                       const std::vector<Quantity>& quantities,
+                       std::size_t body,
+                       const Frame<Dim>& moment) const {
+        for (const auto& [by, range] : quantities) {
+            const Eigen::VectorXd values = vertex_values<Dim>(bodies_[body], moment, by);
+            for (const std::uint32_t vertex : shells_[body].vertices) {
+                bytes +=
+                    static_cast<char>(std::lround(range.place(values[vertex], by) * kColorSteps));
+            }
+        }
     }
 
     void append_positions(std::string& bytes,
@@ -236,8 +290,9 @@ private:
     const ExportOptions& options_;
     std::vector<Body<Dim>> bodies_;
     std::vector<Shell> shells_;
-    std::vector<ColorBy> quantities_;
-    std::vector<double> maxima_;
+    std::vector<Frame<Dim>> first_;     // of each body
+    std::vector<Quantity> quantities_;  // of frames
+    std::vector<Quantity> fields_;      // of meshes, the same in all frames
     std::vector<double> times_;
     std::vector<std::vector<ObstacleShape<Dim>>> obstacles_;  // of each frame
     std::size_t frames_seen_ = 0;

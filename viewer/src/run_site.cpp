@@ -8,8 +8,11 @@
 #include <pent/run_files.h>
 #include <pent/viewer/run_folder.h>
 
+#include <algorithm>
 #include <fstream>
+#include <nlohmann/json.hpp>
 #include <optional>
+#include <sstream>
 #include <system_error>
 #include <vector>
 
@@ -99,6 +102,28 @@ bool is_model(const fs::path& path) {
     return (ending == ".g4b" || ending == ".g4tf") && fs::is_regular_file(path, error);
 }
 
+// The files that a model says its buffers are in; none where it cannot be read, as the page tells.
+std::vector<std::string> buffer_files(const fs::path& model) {
+    constexpr std::size_t kChunkBegin =
+        32;  // of the text, behind headers of the file and the chunk
+    std::string text = read_file(model).value_or("");
+    const bool is_chunked = text.starts_with("G4MF");
+    std::istringstream stream(is_chunked ? text.substr(std::min(kChunkBegin, text.size())) : text);
+    std::vector<std::string> files;
+    try {
+        nlohmann::json json;
+        stream >> json;  // and nothing behind it
+        for (const nlohmann::json& buffer : json.at("buffers")) {
+            if (buffer.contains("uri")) {
+                files.push_back(buffer.at("uri").get<std::string>());
+            }
+        }
+    } catch (const nlohmann::json::exception&) {
+        files.clear();
+    }
+    return files;
+}
+
 HttpResponse binary(std::optional<std::string> bytes, const std::string& type) {
     if (!bytes) {
         return refusal(404, "no such file");
@@ -147,8 +172,11 @@ HttpResponse RunSite::answer(const HttpRequest& request, int port) const {
         return refusal(404, "there is " + folder + " and the page / alone");
     }
     const std::string name = request.path.substr(folder.size());
+    if (is_single_file_ && name == name_) {
+        return binary(read_file(run_), "application/octet-stream");
+    }
     if (is_single_file_ && name != "run.json") {
-        return binary(name == name_ ? read_file(run_) : std::nullopt, "application/octet-stream");
+        return buffer_of_model(name);
     }
     return name == "run.json" ? listing() : file_of_run(name);
 }
@@ -167,6 +195,25 @@ HttpResponse RunSite::file_of_run(const std::string& name) const {
     return binary(read_file(path), name.ends_with(".json") ? "application/json"
                                    : is_text               ? "text/plain; charset=utf-8"
                                                            : "application/octet-stream");
+}
+
+HttpResponse RunSite::buffer_of_model(const std::string& name) const {
+    // A name as browsers ask for it: without the "./" that a model may have in front of it.
+    const fs::path asked = fs::path(name).lexically_normal();
+    const auto is_asked = [&](const std::string& file) {
+        return fs::path(file).lexically_normal() == asked;
+    };
+    const std::vector<std::string> files =
+        is_model(run_) ? buffer_files(run_) : std::vector<std::string>();
+    // Neither a model that names other files of this machine nor a link may lead out of its folder.
+    const fs::path folder = run_.parent_path();
+    std::error_code error;
+    const fs::path path = fs::canonical(folder / asked, error);
+    if (error || path.lexically_relative(folder) != asked || *asked.begin() == ".."
+        || std::none_of(files.begin(), files.end(), is_asked)) {
+        return refusal(404, "no such file");
+    }
+    return binary(read_file(path), "application/octet-stream");
 }
 
 HttpResponse RunSite::listing() const {

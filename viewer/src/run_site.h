@@ -18,6 +18,7 @@ namespace pent::viewer {
 ///                                obstacles.json, obstacles/
 ///     /NAME/NAME                 in place of a run: a mesh, or a model (.g4b, .g4tf), which
 ///                                run.json names
+///     /NAME/BUFFER               a file that the model has numbers in, in its folder or below
 class RunSite {
 public:
     /// @param page  index.html as scripts/web.sh builds it.
@@ -36,6 +37,7 @@ public:
 
 private:
     [[nodiscard]] HttpResponse file_of_run(const std::string& name) const;
+    [[nodiscard]] HttpResponse buffer_of_model(const std::string& name) const;
     [[nodiscard]] HttpResponse listing() const;
 
     std::filesystem::path run_;  // without links

@@ -193,7 +193,7 @@ void write_boundary(const Body<4>& body,
         grid.point_data.push_back({name_of(by), vertex_values<4>(body, frame, by)});
     };
     for (const ColorBy& by : all_colorings()) {
-        if (by != ColorBy::Body && !lacks(frame, by)) {
+        if (by != ColorBy::Body && !lacks(body, frame, by)) {
             add(by);
         }
     }

@@ -1,11 +1,14 @@
 import { BodyReader } from "./body.ts";
 import type { Column } from "./body.ts";
 import { PentError } from "./error.ts";
+import { checkFields, fieldColumns, fieldsOf } from "./fields.ts";
+import type { Field } from "./fields.ts";
 import { cellName, cellNamePlural, parseHeader } from "./header.ts";
 import type { Dimension } from "./header.ts";
 import type { PlyElement, PlyType } from "./ply.ts";
 
 const kAxes = "xyzw";
+const kVertexVectors = ["", "v", "f"]; // that are no fields
 const kDegenerate = 1e-14; // of the product of edge lengths: below, rounding may decide the sign
 
 /** A mesh of simplices: positions of `dimension` numbers a vertex, cells of one corner more. */
@@ -19,13 +22,21 @@ export interface Mesh {
     createdBy: string;
 }
 
-/** A moment of a mesh: positions, and velocities (m/s) and contact forces (N) if it has them. */
+/** A mesh with the further quantities that its file has. */
+export interface MeshFile extends Mesh {
+    vertexFields: Field[];
+    cellFields: Field[];
+}
+
+/** A moment of a mesh: positions, and velocities (m/s), contact forces (N) and further quantities of vertices if it
+ * has them. */
 export interface Frame {
     dimension: Dimension;
     vertexCount: number;
     positions: Float64Array;
     velocities: Float64Array | null;
     contactForces: Float64Array | null;
+    fields: Field[];
     meshName: string;
     meshCrc: number;
     frame: number;
@@ -176,7 +187,7 @@ function validate(mesh: Mesh, fibers: Float64Array | null, path: string): void {
 }
 
 /** Reads and validates a mesh. Throws a PentError with the words of the C++ reader. */
-export function readMesh(bytes: Uint8Array, path: string): Mesh {
+export function readMesh(bytes: Uint8Array, path: string): MeshFile {
     const header = parseHeader(bytes, path);
     if (header.mesh) {
         throw new PentError(
@@ -184,8 +195,14 @@ export function readMesh(bytes: Uint8Array, path: string): Mesh {
                 "expected a mesh",
         );
     }
-    const reader = new BodyReader(header, bytes, path);
     const { dimension } = header;
+    if (dimension < 4 && header.elements[2]?.name === "layer") {
+        throw new PentError(
+            `${path}: has base and layers of a body of dimension ${dimension + 1}, which this page ` +
+                "does not extrude; expected the body, as pent-mesh writes it without --unextruded",
+        );
+    }
+    const reader = new BodyReader(header, bytes, path);
     const [vertex, cell] = header.elements as [PlyElement, PlyElement];
     hasProperty(vertex, "column", "uint", path);
     hasProperty(vertex, "layer", "uint", path);
@@ -193,7 +210,10 @@ export function readMesh(bytes: Uint8Array, path: string): Mesh {
     hasProperty(cell, "parent", "uint", path);
     const fibers = vectorOf(cell, dimension, "fiber_", "fiber", path);
     const corners = dimension + 1;
-    const mesh: Mesh = {
+    const vertexFields = fieldsOf(vertex, dimension, kVertexVectors);
+    const cellFields = fieldsOf(cell, dimension, ["fiber_"]);
+    hasProperty(cell, "bisection_tag", "uchar", path);
+    const mesh: MeshFile = {
         dimension,
         vertexCount: Number(vertex.count),
         cellCount: Number(cell.count),
@@ -201,8 +221,13 @@ export function readMesh(bytes: Uint8Array, path: string): Mesh {
         cells: new Uint32Array(corners * Number(cell.count)),
         crc: header.crc32c ?? 0,
         createdBy: header.createdBy,
+        vertexFields,
+        cellFields,
     };
-    reader.read(vectorColumns(mesh.positions, dimension, ""));
+    reader.read([
+        ...vectorColumns(mesh.positions, dimension, ""),
+        ...vertexFields.flatMap(fieldColumns),
+    ]);
     reader.read([
         ...Array.from({ length: corners }, (_, k) => ({
             name: `v${k}`,
@@ -211,9 +236,12 @@ export function readMesh(bytes: Uint8Array, path: string): Mesh {
             stride: corners,
         })),
         ...(fibers ? vectorColumns(fibers, dimension, "fiber_") : []),
+        ...cellFields.flatMap(fieldColumns),
     ]);
     reader.finish();
     validate(mesh, fibers, path);
+    checkFields(vertexFields, "vertex", path);
+    checkFields(cellFields, cellName(dimension), path);
     return mesh;
 }
 
@@ -251,22 +279,26 @@ export function readFrame(bytes: Uint8Array, path: string): Frame {
     const vertex = header.elements[0]!;
     const velocities = vectorOf(vertex, dimension, "v", "velocity", path);
     const contactForces = vectorOf(vertex, dimension, "f", "contact force", path);
+    const fields = fieldsOf(vertex, dimension, kVertexVectors);
     const positions = new Float64Array(dimension * vertexCount);
     reader.read([
         ...vectorColumns(positions, dimension, ""),
         ...(velocities ? vectorColumns(velocities, dimension, "v") : []),
         ...(contactForces ? vectorColumns(contactForces, dimension, "f") : []),
+        ...fields.flatMap(fieldColumns),
     ]);
     reader.finish();
     checkFinite(positions, dimension, "", path);
     checkFinite(velocities, dimension, "v", path);
     checkFinite(contactForces, dimension, "f", path);
+    checkFields(fields, "vertex", path);
     return {
         dimension,
         vertexCount,
         positions,
         velocities,
         contactForces,
+        fields,
         meshName: header.mesh.name,
         meshCrc: header.mesh.crc,
         frame: header.frame,

@@ -1,4 +1,5 @@
-import type { Mesh } from "../format/pent_file.ts";
+import type { Field } from "../format/fields.ts";
+import type { Mesh, MeshFile } from "../format/pent_file.ts";
 
 /** Length of the vector of every vertex, for speeds and forces. */
 export function lengths(vectors: Float64Array, dimension: number): Float32Array {
@@ -11,6 +12,18 @@ export function lengths(vectors: Float64Array, dimension: number): Float32Array 
         result[v] = Math.sqrt(square);
     }
     return result;
+}
+
+/** What every vertex is colored by, by the name of the quantity: a number as it is, vectors by their length. Where two
+ * have one name it is the first. */
+export function scalarsOf(fields: Field[]): Map<string, Float32Array> {
+    const scalars = new Map<string, Float32Array>();
+    for (const { name, size, values } of fields) {
+        if (!scalars.has(name)) {
+            scalars.set(name, size === 1 ? Float32Array.from(values) : lengths(values, size));
+        }
+    }
+    return scalars;
 }
 
 /** Positions as the graphics card takes them: four floats a vertex, w = 0 in three dimensions. */
@@ -60,19 +73,29 @@ function invert(matrix: Float64Array, inverse: Float64Array, n: number): number 
     return determinant;
 }
 
-/** What strain needs of the mesh at rest, made once: the inverse edge matrix and the volume (times
- * dimension!) of every cell. */
+/** What strain and means need of the mesh at rest, made once: the inverse edge matrix and the volume
+ * (times dimension!) of every cell. */
 export interface RestCells {
     dimension: number;
+    vertexCount: number;
     cells: Uint32Array;
+    farthest: number; // of the coordinates, from zero
     inverses: Float32Array;
-    volumes: Float32Array;
+    volumes: Float64Array;
+}
+
+function farthestOf(coordinates: Float32Array | Float64Array): number {
+    let farthest = 0;
+    for (const value of coordinates) {
+        farthest = Math.max(farthest, Math.abs(value));
+    }
+    return farthest;
 }
 
 export function makeRestCells(mesh: Mesh): RestCells {
     const n = mesh.dimension;
     const inverses = new Float32Array(n * n * mesh.cellCount);
-    const volumes = new Float32Array(mesh.cellCount);
+    const volumes = new Float64Array(mesh.cellCount);
     const edges = new Float64Array(n * n);
     const inverse = new Float64Array(n * n);
     for (let cell = 0; cell < mesh.cellCount; ++cell) {
@@ -87,14 +110,45 @@ export function makeRestCells(mesh: Mesh): RestCells {
         volumes[cell] = invert(edges, inverse, n);
         inverses.set(inverse, n * n * cell);
     }
-    return { dimension: n, cells: mesh.cells, inverses, volumes };
+    const farthest = farthestOf(mesh.positions);
+    const { vertexCount, cells } = mesh;
+    return { dimension: n, vertexCount, cells, farthest, inverses, volumes };
 }
 
-// |F^T F - I| / 2 for F = Ds Dm^-1.
+/** Means at every vertex over its cells by their volume at rest; zero for a vertex of none.
+ *
+ * @param values  `size` numbers a cell. */
+export function vertexMeans(rest: RestCells, values: Float64Array, size: number): Float64Array {
+    const means = new Float64Array(size * rest.vertexCount);
+    const weight = new Float64Array(rest.vertexCount);
+    rest.volumes.forEach((volume, cell) => {
+        for (let k = 0; k <= rest.dimension; ++k) {
+            const vertex = rest.cells[cell * (rest.dimension + 1) + k]!;
+            weight[vertex]! += volume;
+            for (let i = 0; i < size; ++i) {
+                means[size * vertex + i]! += volume * values[size * cell + i]!;
+            }
+        }
+    });
+    return means.map((sum, i) => (sum === 0 ? 0 : sum / weight[Math.floor(i / size)]!));
+}
+
+/** The quantities of a mesh at its vertices: its own, and those of cells under other names as means. */
+export function vertexFields(mesh: MeshFile, rest: () => RestCells): Field[] {
+    const ofCells = mesh.cellFields.map(({ name, size, values }) => ({
+        name,
+        size,
+        values: vertexMeans(rest(), values, size),
+    }));
+    return [...mesh.vertexFields, ...ofCells];
+}
+
+// |F^T F - I| / 2 for F = Ds Dm^-1; zero where it is below what rounding makes of it.
 function cellStrain(
     rest: RestCells,
     cell: number,
     positions: Float32Array,
+    rounding: number,
     F: Float64Array,
 ): number {
     const n = rest.dimension;
@@ -121,25 +175,24 @@ function cellStrain(
             square += (i === j ? 1 : 2) * sum * sum;
         }
     }
-    return Math.sqrt(square) / 2;
+    let inverse = 0;
+    for (let i = n * n * cell; i < n * n * (cell + 1); ++i) {
+        inverse += rest.inverses[i]! ** 2;
+    }
+    const strain = Math.sqrt(square) / 2;
+    return strain > rounding * Math.sqrt(inverse) ? strain : 0;
 }
 
 /** |E| of every vertex, the Frobenius norm of the Green strain, averaged over its cells by their
- * volume at rest.
+ * volume at rest. Positions are floats, so that of a cell at rest it would be a little above zero.
  *
  * @param positions  Four floats a vertex. */
 export function strains(rest: RestCells, positions: Float32Array): Float32Array {
-    const sum = new Float32Array(positions.length / 4);
-    const weight = new Float32Array(positions.length / 4);
+    const kFloat = 2 ** -23; // a float differs from the next one by no more than that part of it
+    const rounding = kFloat * Math.max(rest.farthest, farthestOf(positions));
     const F = new Float64Array(rest.dimension ** 2);
-    for (let cell = 0; cell < rest.volumes.length; ++cell) {
-        const volume = rest.volumes[cell]!;
-        const strain = cellStrain(rest, cell, positions, F) * volume;
-        for (let k = 0; k <= rest.dimension; ++k) {
-            const vertex = rest.cells[cell * (rest.dimension + 1) + k]!;
-            sum[vertex]! += strain;
-            weight[vertex]! += volume;
-        }
-    }
-    return sum.map((value, v) => (weight[v]! > 0 ? value / weight[v]! : 0));
+    const values = Float64Array.from(rest.volumes, (_, cell) =>
+        cellStrain(rest, cell, positions, rounding, F),
+    );
+    return Float32Array.from(vertexMeans(rest, values, 1));
 }

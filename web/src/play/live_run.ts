@@ -30,12 +30,12 @@ export class LiveRun implements Run {
         return Promise.resolve(this.scene.moment);
     }
 
-    addStrain(moment: Moment): Promise<boolean> {
+    addStrain(moment: Moment): Promise<void> {
         const rests = (this.rests ??= this.scene.rests.map((mesh) => makeRestCells(mesh)));
-        moment.bodies.forEach((body, i) => {
-            body.strain ??= strains(rests[i]!, body.positions);
+        moment.bodies.forEach(({ positions, quantities }, i) => {
+            quantities.set("strain", strains(rests[i]!, positions));
         });
-        return Promise.resolve(true);
+        return Promise.resolve();
     }
 
     refresh(): Promise<boolean> {
@@ -80,6 +80,6 @@ function corners(low: number[], high: number[]): Moment {
     const positions = Float32Array.from({ length: 64 }, (_, i) =>
         (i >> 2) & (1 << i % 4) ? high[i % 4]! : low[i % 4]!,
     );
-    const body = { positions, speed: null, force: null, strain: null };
+    const body = { positions, quantities: new Map() };
     return { frame: 0, time: 0, bodies: [body], obstacles: [] };
 }

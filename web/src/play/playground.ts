@@ -60,6 +60,7 @@ export class Playground {
                 vertexCount: mesh.vertexCount,
                 cellCount: mesh.cellCount,
                 boundary: makeBoundary(mesh, simulation.name(body)),
+                fields: new Map(),
             })),
             rests: this.meshes(),
             moment: this.moment(),
@@ -185,8 +186,11 @@ export class Playground {
         const size = (vectors: Float64Array) => lengths(vectors, held.dimension);
         const bodies = Array.from({ length: held.bodyCount }, (_, body): BodyFrame => {
             const positions = toFloat4(held.positions(body), held.dimension);
-            const speed = size(held.velocities(body));
-            return { positions, speed, force: size(held.contactForces(body)), strain: null };
+            const quantities = new Map([
+                ["speed", size(held.velocities(body))],
+                ["force", size(held.contactForces(body))],
+            ]);
+            return { positions, quantities };
         });
         return { frame: this.frame++, time: held.time, bodies, obstacles: held.obstacles };
     }

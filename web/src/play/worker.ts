@@ -34,8 +34,8 @@ function held(): Playground {
 function sendFrame(): void {
     isFrameDue = false;
     const moment = held().moment();
-    const transfer = moment.bodies.flatMap(({ positions, speed, force }) =>
-        [positions, speed!, force!].map((values) => values.buffer as ArrayBuffer),
+    const transfer = moment.bodies.flatMap(({ positions, quantities }) =>
+        [positions, ...quantities.values()].map((values) => values.buffer as ArrayBuffer),
     );
     const stats = held().stats(window.speed);
     post({ kind: "frame", frame: { moment, stats, recorded: held().recorded } }, transfer);

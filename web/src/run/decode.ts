@@ -5,9 +5,11 @@ import { G4mfDocument } from "../format/g4mf_document.ts";
 import { readFrame, readMesh } from "../format/pent_file.ts";
 import { indexBoundary, makeBoundary } from "../mesh/boundary.ts";
 import type { Boundary } from "../mesh/boundary.ts";
-import { lengths, makeRestCells, strains, toFloat4 } from "../mesh/quantities.ts";
+import { lengths, makeRestCells, strains, toFloat4, vertexFields } from "../mesh/quantities.ts";
 import type { RestCells } from "../mesh/quantities.ts";
 import { orientOutward } from "../mesh/orient.ts";
+import { namedFields } from "./quantities.ts";
+import type { Quantities } from "./quantities.ts";
 
 /** A body, ready for the graphics card. */
 export interface Body {
@@ -16,15 +18,13 @@ export interface Body {
     vertexCount: number;
     cellCount: number; // 0 where its boundary is all that is known
     boundary: Boundary;
+    fields: Quantities; // of its mesh
 }
 
-/** What a body is at one moment: four floats a vertex, and one float a vertex of each quantity that
- * there is. */
+/** What a body is at one moment. */
 export interface BodyFrame {
-    positions: Float32Array;
-    speed: Float32Array | null; // m/s
-    force: Float32Array | null; // of contact, N
-    strain: Float32Array | null; // made when it is asked for
+    positions: Float32Array; // four a vertex
+    quantities: Quantities;
 }
 
 export interface DecodedMesh {
@@ -69,6 +69,7 @@ export class Decoder {
             rest: mesh,
             restCells: null,
         });
+        const fields = namedFields(vertexFields(mesh, () => this.restCells(name)));
         return {
             body: {
                 name,
@@ -76,12 +77,11 @@ export class Decoder {
                 vertexCount: mesh.vertexCount,
                 cellCount: mesh.cellCount,
                 boundary,
+                fields,
             },
             start: {
                 positions: toFloat4(mesh.positions, mesh.dimension),
-                speed: null,
-                force: null,
-                strain: null,
+                quantities: new Map(),
             },
         };
     }
@@ -98,23 +98,31 @@ export class Decoder {
                 `${path}: belongs to another mesh than ${mesh.path}; expected both from one run`,
             );
         }
-        const size = (values: Float64Array | null) => values && lengths(values, frame.dimension);
+        const quantities = namedFields(frame.fields);
+        const vectors = { speed: frame.velocities, force: frame.contactForces };
+        for (const [quantity, values] of Object.entries(vectors)) {
+            if (values) {
+                quantities.set(quantity, lengths(values, frame.dimension));
+            }
+        }
         return {
             time: frame.time,
             frame: {
                 positions: toFloat4(frame.positions, frame.dimension),
-                speed: size(frame.velocities),
-                force: size(frame.contactForces),
-                strain: null,
+                quantities,
             },
         };
     }
 
     /** @param positions  Four floats a vertex. */
     strain(name: string, positions: Float32Array): Float32Array {
+        return strains(this.restCells(name), positions);
+    }
+
+    private restCells(name: string): RestCells {
         const mesh = this.kept.get(name)!;
         mesh.restCells ??= makeRestCells(mesh.rest);
-        return strains(mesh.restCells, positions);
+        return mesh.restCells;
     }
 }
 
@@ -136,7 +144,8 @@ export class ModelDecoder {
             orientOutward(points, tetrahedra);
             const vertexCount = points.length / 4;
             const boundary = indexBoundary(tetrahedra, 4, vertexCount);
-            return { name, dimension: 4, vertexCount, cellCount: 0, boundary };
+            const fields = new Map<string, Float32Array>();
+            return { name, dimension: 4, vertexCount, cellCount: 0, boundary, fields };
         });
         return { bodies, frames: this.model.frames };
     }
@@ -145,9 +154,7 @@ export class ModelDecoder {
         const { model } = this;
         return model!.points(model!.frames[place]!).map((points) => ({
             positions: Float32Array.from(points),
-            speed: null,
-            force: null,
-            strain: null,
+            quantities: new Map(),
         }));
     }
 }

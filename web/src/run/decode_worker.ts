@@ -27,7 +27,8 @@ function buffersOf(value: unknown, found: Set<ArrayBuffer> = new Set()): Set<Arr
     if (ArrayBuffer.isView(value)) {
         found.add(value.buffer as ArrayBuffer);
     } else if (value && typeof value === "object") {
-        Object.values(value).forEach((part) => buffersOf(part, found));
+        const parts = value instanceof Map ? [...value.values()] : Object.values(value);
+        parts.forEach((part) => buffersOf(part, found));
     }
     return found;
 }

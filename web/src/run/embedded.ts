@@ -4,11 +4,18 @@ import { readObstacles } from "../format/obstacles.ts";
 import type { Obstacle } from "../format/obstacles.ts";
 import { indexBoundary } from "../mesh/boundary.ts";
 import type { Body, BodyFrame } from "./decode.ts";
+import type { Quantities } from "./quantities.ts";
 import type { Moment, Run } from "./run.ts";
 
-const kQuantities = ["speed", "strain", "force"] as const;
 const kMaxVertices = 1 << 24; // what a graphics card takes
 const kAgain = "export the page again";
+
+/** What 8 bits of a quantity range over. */
+interface Coded {
+    name: string;
+    low: number;
+    high: number;
+}
 
 /** What pent-view --export writes into a page beside the frames. */
 interface Description {
@@ -16,7 +23,8 @@ interface Description {
     dimension: 3 | 4;
     low: number[]; // of all positions, m
     high: number[];
-    maxima: Record<(typeof kQuantities)[number], number | null>;
+    quantities: Coded[]; // of every frame
+    fields: Coded[]; // of the meshes, once
     bodies: { name: string; vertices: number; cells: number; facets: number }[];
     frames: { frame: number; time: number }[];
     obstacles: Obstacle[][]; // of each frame, or once where none of them moves; none where there are none
@@ -25,18 +33,23 @@ interface Description {
 function readDescription(text: string): Description {
     const json = JsonEntry.parse(text, "this page", `run of pent-view; ${kAgain}`);
     const version = json.at("version");
-    if (version.value !== 1) {
-        version.expected("1");
+    if (version.value !== 2) {
+        version.expected("2");
     }
     const dimension = json.at("dimension").whole() as 3 | 4;
     if (dimension !== 3 && dimension !== 4) {
         json.at("dimension").expected("3 or 4");
     }
     const ends = (key: string) => json.at(key).reals(dimension);
-    const most = (key: string) => {
-        const entry = json.at("maxima").at(key);
-        return entry.value === null ? null : entry.real();
-    };
+    const coded = (key: string) =>
+        json
+            .at(key)
+            .list()
+            .map((entry) => ({
+                name: entry.at("name").text(),
+                low: entry.at("low").real(),
+                high: entry.at("high").real(),
+            }));
     const bodies = json
         .at("bodies")
         .list()
@@ -62,7 +75,8 @@ function readDescription(text: string): Description {
         dimension,
         low: ends("low"),
         high: ends("high"),
-        maxima: { speed: most("speed"), strain: most("strain"), force: most("force") },
+        quantities: coded("quantities"),
+        fields: coded("fields"),
         bodies,
         frames,
         obstacles: files.map(({ value, where }) => readObstacles(value, where, dimension)),
@@ -81,8 +95,29 @@ function bytesOf(id: string): Uint8Array {
     }
 }
 
-/** A run that lies in the page itself: boundaries, and frames of positions in 16 bits a coordinate
- * and quantities in 8. */
+function checkLength(bytes: Uint8Array, expected: number, what: string): void {
+    if (bytes.length !== expected) {
+        throw new PentError(
+            `this page: ${what} has ${bytes.length} bytes, expected ${expected}; ${kAgain}`,
+        );
+    }
+}
+
+// One after the other, a byte a vertex.
+function decoded(coded: Coded[], bytes: Uint8Array, vertexCount: number): Quantities {
+    return new Map(
+        coded.map(({ name, low, high }, i) => [
+            name,
+            Float32Array.from(
+                bytes.subarray(i * vertexCount, (i + 1) * vertexCount),
+                (value) => low + (value / 255) * (high - low),
+            ),
+        ]),
+    );
+}
+
+/** A run that lies in the page itself: boundaries with fields of meshes in 8 bits, and frames of positions in 16 bits a
+ * coordinate and quantities in 8. */
 export class EmbeddedRun implements Run {
     readonly title: string;
     readonly dimension: 3 | 4;
@@ -98,14 +133,22 @@ export class EmbeddedRun implements Run {
         const bytes = bytesOf("pent-facets");
         // What is no whole number is missed below.
         const corners = new Uint32Array(bytes.buffer, 0, bytes.length >> 2);
+        const ofMeshes = description.fields;
+        const values = ofMeshes.length > 0 ? bytesOf("pent-fields") : new Uint8Array();
+        const all = bodies.reduce((sum, { vertices }) => sum + vertices, 0);
+        checkLength(values, ofMeshes.length * all, "part pent-fields of the run");
         let at = 0;
+        let atValue = 0;
         this.bodies = bodies.map(({ name, vertices, cells, facets }) => {
             const part = corners.slice(at, (at += 4 * facets));
             if (part.length !== 4 * facets || part.some((vertex) => vertex >= vertices)) {
                 throw new PentError(`this page: the surface of ${name} is damaged; ${kAgain}`);
             }
             const boundary = indexBoundary(part, dimension, vertices);
-            return { name, dimension, vertexCount: vertices, cellCount: cells, boundary };
+            const size = ofMeshes.length * vertices;
+            const own = values.subarray(atValue, (atValue += size));
+            const fields = decoded(ofMeshes, own, vertices);
+            return { name, dimension, vertexCount: vertices, cellCount: cells, boundary, fields };
         });
     }
 
@@ -121,11 +164,13 @@ export class EmbeddedRun implements Run {
     async load(frame: number): Promise<Moment> {
         const place = this.frames.indexOf(frame);
         const bytes = bytesOf(`pent-frame-${place}`);
-        this.checkLength(bytes, frame);
+        const vertices = this.bodies.reduce((sum, body) => sum + body.vertexCount, 0);
+        const each = 2 * this.dimension + this.description.quantities.length;
+        checkLength(bytes, vertices * each, `frame ${frame}`);
         let at = 0;
         const view = new DataView(bytes.buffer);
         const bodies = this.bodies.map(({ vertexCount }): BodyFrame => {
-            const { low, high, maxima } = this.description;
+            const { low, high, quantities } = this.description;
             const positions = new Float32Array(4 * vertexCount);
             for (let v = 0; v < vertexCount; ++v) {
                 for (let axis = 0; axis < this.dimension; ++axis, at += 2) {
@@ -133,17 +178,8 @@ export class EmbeddedRun implements Run {
                     positions[4 * v + axis] = low[axis]! + t * (high[axis]! - low[axis]!);
                 }
             }
-            const made: BodyFrame = { positions, speed: null, force: null, strain: null };
-            for (const key of kQuantities) {
-                const most = maxima[key];
-                if (most !== null) {
-                    made[key] = Float32Array.from(
-                        bytes.subarray(at, (at += vertexCount)),
-                        (value) => (value / 255) * most,
-                    );
-                }
-            }
-            return made;
+            const values = bytes.subarray(at, (at += quantities.length * vertexCount));
+            return { positions, quantities: decoded(quantities, values, vertexCount) };
         });
         const { obstacles } = this.description;
         return {
@@ -152,23 +188,6 @@ export class EmbeddedRun implements Run {
             bodies,
             obstacles: obstacles[place] ?? obstacles[0] ?? [],
         };
-    }
-
-    private checkLength(bytes: Uint8Array, frame: number): void {
-        const { maxima } = this.description;
-        const quantities = kQuantities.filter((key) => maxima[key] !== null).length;
-        const vertices = this.bodies.reduce((sum, body) => sum + body.vertexCount, 0);
-        const expected = vertices * (2 * this.dimension + quantities);
-        if (bytes.length !== expected) {
-            throw new PentError(
-                `this page: frame ${frame} has ${bytes.length} bytes, expected ` +
-                    `${expected}; ${kAgain}`,
-            );
-        }
-    }
-
-    addStrain(moment: Moment): Promise<boolean> {
-        return Promise.resolve(moment.bodies.every((body) => body.strain !== null));
     }
 
     refresh(): Promise<boolean> {

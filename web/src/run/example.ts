@@ -154,6 +154,7 @@ export class ExampleRun implements Run {
                 vertexCount,
                 cellCount,
                 boundary: makeBoundary(this.mesh, name),
+                fields: new Map(),
             },
         ];
     }
@@ -180,14 +181,15 @@ export class ExampleRun implements Run {
         return Promise.resolve({
             frame,
             time,
-            bodies: [{ positions, speed, force: null, strain: null }],
+            bodies: [{ positions, quantities: new Map([["speed", speed]]) }],
             obstacles: [],
         });
     }
 
-    addStrain(moment: Moment): Promise<boolean> {
-        moment.bodies[0]!.strain ??= strains(this.rest, moment.bodies[0]!.positions);
-        return Promise.resolve(true);
+    addStrain(moment: Moment): Promise<void> {
+        const { positions, quantities } = moment.bodies[0]!;
+        quantities.set("strain", strains(this.rest, positions));
+        return Promise.resolve();
     }
 
     refresh(): Promise<boolean> {

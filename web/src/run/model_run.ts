@@ -51,11 +51,6 @@ export class ModelRun implements Run {
         return { frame, time: this.shapes[place]!.time, bodies, obstacles: [] };
     }
 
-    // Of cells nothing is known.
-    addStrain(): Promise<boolean> {
-        return Promise.resolve(false);
-    }
-
     refresh(): Promise<boolean> {
         return Promise.resolve(false);
     }

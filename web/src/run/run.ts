@@ -33,24 +33,17 @@ export interface Run {
      * known before. */
     readonly stage?: Moment;
     load(frame: number): Promise<Moment>;
-    /** Fills the strain of a moment in; false where this run cannot know it. */
-    addStrain(moment: Moment): Promise<boolean>;
+    /** Fills the strain of a moment in; not there where this run cannot know it, or has it. */
+    addStrain?(moment: Moment): Promise<void>;
     /** Looks for new frames; true if there are some. */
     refresh(): Promise<boolean>;
     close(): void;
 }
 
 export function bytesOf(moment: Moment): number {
-    const size = (values: Float32Array | null) => values?.byteLength ?? 0;
-    return moment.bodies.reduce(
-        (sum, body) =>
-            sum +
-            body.positions.byteLength +
-            size(body.speed) +
-            size(body.force) +
-            size(body.strain),
-        0,
-    );
+    return moment.bodies
+        .flatMap(({ positions, quantities }) => [positions, ...quantities.values()])
+        .reduce((sum, values) => sum + values.byteLength, 0);
 }
 
 /** A run folder, or a single .pent mesh, read by a worker. */
@@ -97,14 +90,13 @@ export class PentRun implements Run {
         return { frame, time: decoded[0]!.time, bodies, obstacles };
     }
 
-    async addStrain(moment: Moment): Promise<boolean> {
+    async addStrain(moment: Moment): Promise<void> {
         await Promise.all(
-            this.bodies.map(async (body, i) => {
-                const frame = moment.bodies[i]!;
-                frame.strain ??= await this.decoder.strain(body.name, frame.positions);
+            this.bodies.map(async ({ name }, i) => {
+                const { positions, quantities } = moment.bodies[i]!;
+                quantities.set("strain", await this.decoder.strain(name, positions));
             }),
         );
-        return true;
     }
 
     async refresh(): Promise<boolean> {

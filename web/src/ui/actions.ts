@@ -1,4 +1,3 @@
-import { kColorBy } from "../view/colors.ts";
 import { reachAlongW } from "../view/bounds.ts";
 import { slicePlaces } from "../view/compose.ts";
 import { axesOf, identity, kPlanes } from "../view/rotation.ts";
@@ -86,7 +85,11 @@ export const kActions: Action[] = [
         keys: ["KeyC"],
         shown: "C",
         does: "next coloring",
-        run: (viewer) => viewer.update({ color: next(kColorBy, viewer.state.color), range: null }),
+        run(viewer) {
+            const there = viewer.colorings.filter(({ isThere }) => isThere);
+            const names = there.map(({ name }) => name);
+            viewer.update({ color: next(names, viewer.state.color), range: null });
+        },
     },
     {
         keys: ["KeyS"],

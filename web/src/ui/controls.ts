@@ -24,26 +24,35 @@ export function toggle(
     };
 }
 
+type Options<Value> = readonly (readonly [Value, string, { disabled: boolean }?])[];
+
+/** A choice among what is offered, at first or later. */
 export function choice<Value extends string>(
     label: string,
-    options: readonly (readonly [Value, string])[],
+    options: Options<Value>,
     onChange: (value: Value) => void,
-): Control<Value> {
-    const select = element(
-        "select",
-        {
-            "aria-label": label,
-            change: () => onChange(select.value as Value),
-        },
-        ...options.map(([value, text]) => element("option", { value }, text)),
-    );
-    const root = element("label", { class: "row" }, element("span", {}, label), select);
-    return {
-        root,
-        show: (value) => {
-            select.value = value;
-        },
+) {
+    const select = element("select", {
+        "aria-label": label,
+        change: () => onChange(select.value as Value),
+    });
+    let offered = "";
+    const offer = (options: Options<Value>) => {
+        if (offered !== JSON.stringify(options)) {
+            offered = JSON.stringify(options);
+            select.replaceChildren(
+                ...options.map(([value, text, more]) =>
+                    element("option", { value, ...more }, text),
+                ),
+            );
+        }
     };
+    offer(options);
+    const root = element("label", { class: "row" }, element("span", {}, label), select);
+    const show = (value: Value) => {
+        select.value = value;
+    };
+    return { root, show, offer } satisfies Control<Value> & { offer: unknown };
 }
 
 /** A few choices side by side. */

@@ -1,7 +1,7 @@
 import { tileRect } from "../render/picture.ts";
 import type { Picture, Tile } from "../render/picture.ts";
 import { sliceLabel, slicePlaces } from "../view/compose.ts";
-import { bodyColor, kColorTitles, mapColor, toCss } from "../view/colors.ts";
+import { bodyColor, colorTitle, rangeColors, toCss } from "../view/colors.ts";
 import type { Color } from "../view/colors.ts";
 import { short } from "../view/state.ts";
 import type { Viewer } from "../view/viewer.ts";
@@ -102,20 +102,27 @@ export class Overlay {
         }
         this.colorsShown = key;
         if (state.color === "body") {
-            const bodies = run!.bodies.length > 1 ? run!.bodies.slice(0, 8) : [];
-            this.colors.replaceChildren(...bodies.map((body, i) => entry(bodyColor(i), body.name)));
+            const kMost = 8; // as many as there are colors
+            const names = run!.bodies.length > 1 ? run!.bodies.map((body) => body.name) : [];
+            const more = names.length - kMost;
+            this.colors.replaceChildren(
+                ...names.slice(0, kMost).map((name, i) => entry(bodyColor(i), name)),
+                element("div", { class: "more" }, more > 0 ? `and ${more} more` : ""),
+            );
             return;
         }
-        const stops = Array.from({ length: 9 }, (_, i) => toCss(mapColor(state.color, i / 8)));
+        const stops = rangeColors(state.color, range, 9).map(toCss);
+        const ends = range[0] < range[1] ? range : [range[0]]; // or one value
+        const title = colorTitle(state.color, run!.dimension);
         const bar = element("div", { class: "colorbar" });
         bar.style.background = `linear-gradient(to right, ${stops.join(", ")})`;
         this.colors.replaceChildren(
-            element("div", { class: "title" }, kColorTitles[state.color]),
+            element("div", { class: "title", title }, title),
             bar,
             element(
                 "div",
                 { class: "ends" },
-                ...range.map((end) => element("span", {}, short(end, 3))),
+                ...ends.map((end) => element("span", {}, short(end, 3))),
             ),
         );
     }
@@ -125,7 +132,7 @@ export class Overlay {
 function entry(color: Color | null, text: string): HTMLElement {
     const swatch = element("i", { class: color ? "swatch" : "swatch none" });
     swatch.style.background = color ? toCss(color) : "none";
-    return element("div", { class: "entry" }, swatch, text);
+    return element("div", { class: "entry", title: text }, swatch, element("span", {}, text));
 }
 
 // "w = 0.05, all solid": what there is to say of a tile.
@@ -177,13 +184,18 @@ export function drawCaption(
         const barWidth = Math.min(10 * size, width / 2);
         const left = width - barWidth - size;
         const bottom = height - 2.2 * size;
-        for (let x = 0; x < barWidth; ++x) {
-            context.fillStyle = toCss(mapColor(state.color, (x + 0.5) / barWidth));
+        rangeColors(state.color, range, Math.ceil(barWidth)).forEach((color, x) => {
+            context.fillStyle = toCss(color);
             context.fillRect(left + x, bottom - size * 0.66, 1.5, size * 0.66);
-        }
+        });
         context.fillStyle = viewer.theme === "dark" ? "#e8eaee" : "#1b1e24";
         context.textAlign = "center";
-        context.fillText(kColorTitles[state.color], left + barWidth / 2, bottom - size);
+        const center = left + barWidth / 2;
+        context.fillText(colorTitle(state.color, run!.dimension), center, bottom - size, barWidth);
+        if (range[0] === range[1]) {
+            context.fillText(short(range[0], 3), center, height - size);
+            return;
+        }
         context.textAlign = "left";
         context.fillText(short(range[0], 3), left, height - size);
         context.textAlign = "right";

@@ -1,4 +1,4 @@
-import { kColorBy } from "../view/colors.ts";
+import { kColorings } from "../run/quantities.ts";
 import { spacingOf } from "../view/compose.ts";
 import { axesOf, fromTurns, identity, kPlanes, toTurns } from "../view/rotation.ts";
 import type { Plane, Rotation } from "../view/rotation.ts";
@@ -190,18 +190,21 @@ export class Panel {
 
     private colorSection(): HTMLElement {
         const { viewer } = this;
-        const names = {
-            body: "body",
-            w: "w",
-            speed: "speed",
-            strain: "strain",
-            force: "contact force",
-        };
-        const by = choice(
-            "Color by",
-            kColorBy.map((key) => [key, names[key]] as const),
-            (value) => viewer.update({ color: value, range: null }),
+        const by = choice<string>("Color by", [], (value) =>
+            viewer.update({ color: value, range: null }),
         );
+        viewer.on("moment", () => {
+            by.offer(
+                viewer.colorings.map(({ name, isThere }) => {
+                    if (isThere || kColorings.includes(name)) {
+                        // What a run could have may be chosen, to be told how.
+                        return [name, name === "force" ? "contact force" : name];
+                    }
+                    return [name, `${name} (not of all bodies)`, { disabled: true }];
+                }),
+            );
+            by.show(viewer.state.color);
+        });
         const ends = [0, 1].map((end) =>
             element("input", {
                 type: "number",

@@ -25,6 +25,7 @@ export class Boxes {
                 vertexCount: mesh.vertexCount,
                 cellCount: mesh.cellCount,
                 boundary: makeBoundary(mesh, "box"),
+                fields: new Map(),
             };
             const axes = axesOf(obstacle);
             const placed = mesh.positions.map((_, i) => {
@@ -36,9 +37,7 @@ export class Boxes {
                 );
             });
             const positions = toFloat4(placed, dimension);
-            return [
-                { body: this.body, frame: { positions, speed: null, force: null, strain: null } },
-            ];
+            return [{ body: this.body, frame: { positions, quantities: new Map() } }];
         });
     }
 }

@@ -1,3 +1,5 @@
+import { kColorings } from "../run/quantities.ts";
+
 /** Colors, the same as in the pictures of pent-render. Linear light, 0..1. */
 export type Color = [number, number, number];
 
@@ -33,17 +35,20 @@ export function obstacleColor(theme: "light" | "dark"): Color {
     return fromOklab(...toOklab([theme === "dark" ? 0.5 : 0.8, 0.012, 75]));
 }
 
-/** What a picture can be colored by. */
-export const kColorBy = ["body", "w", "speed", "strain", "force"] as const;
-export type ColorBy = (typeof kColorBy)[number];
-
-export const kColorTitles: Record<ColorBy, string> = {
-    body: "",
-    w: "w, m",
-    speed: "speed, m/s",
-    strain: "strain",
-    force: "contact force, N",
-};
+/** The quantity with its unit, over the bar of colors; of a field its name.
+ *
+ * @param by  One of kColorings, or a field. */
+export function colorTitle(by: string, dimension: number): string {
+    const titles = new Map([
+        ["body", ""],
+        ["w", "w, m"],
+        ["speed", "speed, m/s"],
+        ["force", "contact force, N"],
+        ["reaction", "reaction, N"],
+        ["energy_density", `energy_density, J/m^${dimension}`],
+    ]);
+    return titles.get(by) ?? by;
+}
 
 /** Oklab to linear sRGB [ottosson2020]. */
 function fromOklab(L: number, a: number, b: number): Color {
@@ -64,7 +69,7 @@ function toOklab([lightness, chroma, hue]: Stop): Color {
 }
 
 /** The color of a value 0..1, beyond that clamped: heat from little to much, diverging for w. */
-export function mapColor(by: ColorBy, value: number): Color {
+export function mapColor(by: string, value: number): Color {
     const stops = by === "w" ? kDiverging : kHeat;
     const place = Math.min(Math.max(value, 0), 1) * (stops.length - 1);
     const i = Math.min(Math.floor(place), stops.length - 2);
@@ -88,13 +93,32 @@ export function toCss(color: Color): string {
     return `rgb(${encoded.join(" ")})`;
 }
 
-/** What the bar of colors ends at: 0 and the 99th percentile, so that one bad element does not take
+/** What the bar of colors ends at: 0, of fields the first percentile, and the 99th, so that one bad element does not take
  * the colors from all others; for w both ends as they are. */
-export function suitableRange(values: Float32Array, by: ColorBy): [number, number] {
+export function suitableRange(values: Float32Array, by: string): [number, number] {
     const sorted = values.slice().sort();
     if (sorted.length === 0) {
         return [0, 0];
     }
     const last = sorted.length - 1;
-    return by === "w" ? [sorted[0]!, sorted[last]!] : [0, sorted[Math.floor((last * 99) / 100)]!];
+    if (by === "w") {
+        return [sorted[0]!, sorted[last]!];
+    }
+    const behind = (hundredths: number) => sorted[Math.floor((last * hundredths) / 100)]!;
+    return [kColorings.includes(by) ? 0 : behind(1), behind(99)];
+}
+
+/** A range that is no wider than the rounding of floats is a single value. */
+export function settled([low, high]: [number, number]): [number, number] {
+    const kFloat = 2 ** -22;
+    return high - low > kFloat * Math.max(Math.abs(low), Math.abs(high)) ? [low, high] : [low, low];
+}
+
+/** The colors from the low end of a range to the high one. Where both are one value there is one color: the middle of
+ * those of w, which go to two sides, and the first of others. */
+export function rangeColors(by: string, [low, high]: [number, number], count: number): Color[] {
+    const alone = by === "w" ? 0.5 : 0;
+    return Array.from({ length: count }, (_, i) =>
+        mapColor(by, high > low ? i / (count - 1) : alone),
+    );
 }

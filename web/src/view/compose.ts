@@ -3,7 +3,7 @@ import type { Bounds } from "./bounds.ts";
 import { tesseract } from "./box.ts";
 import type { Film } from "./box.ts";
 import { makeCamera } from "./camera.ts";
-import { bodyColor, mapColor, obstacleColor } from "./colors.ts";
+import { bodyColor, mapColor, obstacleColor, rangeColors } from "./colors.ts";
 import type { Color } from "./colors.ts";
 import type { Vector } from "./matrix.ts";
 import { placeObstacles } from "./place_obstacles.ts";
@@ -130,7 +130,7 @@ export function makeColoring(state: ViewState, range: [number, number], bodies: 
         valueOf,
         range,
         bodies: Array.from({ length: bodies }, (_, i) => bodyColor(i)),
-        map: Array.from({ length: kMapSize }, (_, i) => mapColor(state.color, i / (kMapSize - 1))),
+        map: rangeColors(state.color, range, kMapSize),
     };
 }
 

@@ -1,5 +1,3 @@
-import { kColorBy } from "./colors.ts";
-import type { ColorBy } from "./colors.ts";
 import type { Orbit } from "./camera.ts";
 import { formatTurns, fromTurns, identity, parseTurns, toTurns } from "./rotation.ts";
 import type { Rotation } from "./rotation.ts";
@@ -20,7 +18,7 @@ export interface ViewState {
     slices: number; // side by side or as onion skin, 2 to 9
     spacing: number | null; // between them, m; null: suitable
     ghost: (typeof kGhosts)[number];
-    color: ColorBy;
+    color: string; // one of kColorings, or a field
     range: [number, number] | null; // of colors; null: what the frames so far have
     smooth: boolean; // normals
     shade: boolean; // shadows and ambient occlusion
@@ -94,7 +92,7 @@ export function formatState(state: ViewState): string {
     }
     for (const key of ["speed", "layout", "slices", "ghost", "color", "theme"] as const) {
         if (state[key] !== initial[key]) {
-            put(key, String(state[key]));
+            put(key, encodeURIComponent(state[key])); // fields have any name
         }
     }
     for (const key of kSwitches) {
@@ -158,10 +156,10 @@ const kReaders: Record<string, (state: ViewState, text: string) => boolean> = {
         choose(kGhosts, text, (value) => {
             state.ghost = value;
         }),
-    color: (state, text) =>
-        choose(kColorBy, text, (value) => {
-            state.color = value;
-        }),
+    color(state, text) {
+        state.color = text || state.color;
+        return text !== "";
+    },
     theme: (state, text) =>
         choose(kThemes, text, (value) => {
             state.theme = value;

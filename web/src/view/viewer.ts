@@ -1,13 +1,12 @@
 import { PentError } from "../format/error.ts";
 import type { Picture } from "../render/picture.ts";
 import { Renderer } from "../render/renderer.ts";
-import type { BodyFrame } from "../run/decode.ts";
+import { kColorings, quantityOf } from "../run/quantities.ts";
 import type { Moment, Run } from "../run/run.ts";
 import { FrameStream } from "../run/stream.ts";
 import { Bounds, reachAlongW } from "./bounds.ts";
 import { Boxes } from "./boxes.ts";
-import { suitableRange } from "./colors.ts";
-import type { ColorBy } from "./colors.ts";
+import { settled, suitableRange } from "./colors.ts";
 import { makeColoring, makePicture } from "./compose.ts";
 import { Pace } from "./pace.ts";
 import { orthonormalize, applyTurn } from "./rotation.ts";
@@ -39,8 +38,8 @@ export class Viewer {
     theme: "light" | "dark" = "light";
     readonly renderer: Renderer;
     private stream: FrameStream | null = null;
-    private ranges = new Map<ColorBy, [number, number]>();
-    private rangeDone = new Map<ColorBy, WeakSet<Moment>>();
+    private ranges = new Map<string, [number, number]>();
+    private rangeDone = new Map<string, WeakSet<Moment>>();
     private listeners: Listeners = {
         state: [],
         run: [],
@@ -216,9 +215,29 @@ export class Viewer {
         if (state.range) {
             return state.range;
         }
-        return state.color === "w"
-            ? [bounds.low[3]!, bounds.high[3]!]
-            : (this.ranges.get(state.color) ?? [0, 1]);
+        return settled(
+            state.color === "w"
+                ? [bounds.low[3]!, bounds.high[3]!]
+                : (this.ranges.get(state.color) ?? [0, 1]),
+        );
+    }
+
+    /** What the moment shown can be colored by, or could if its run had it, by the names that pent-render knows. */
+    get colorings(): { name: string; isThere: boolean }[] {
+        const bodies = this.moment?.bodies ?? [];
+        const fields = bodies.flatMap(({ quantities }, i) => [
+            ...quantities.keys(),
+            ...this.run!.bodies[i]!.fields.keys(),
+        ]);
+        const ours = kColorings.filter((name) => name !== "w" || this.run?.dimension === 4);
+        return [...new Set([...ours, ...fields])].map((name) => ({
+            name,
+            isThere:
+                name === "body" ||
+                name === "w" ||
+                (name === "strain" && this.run?.addStrain !== undefined) ||
+                bodies.every((_, i) => this.quantity(name, i)),
+        }));
     }
 
     /** The picture of the view, of any size in pixels. */
@@ -329,21 +348,16 @@ export class Viewer {
         const isNew = moment !== this.moment;
         this.moment = moment;
         const { color } = this.state;
-        if (color === "force" && moment.bodies.some((body) => !body.force)) {
-            this.refuseColor(
-                `frame ${moment.frame} has no contact forces to color by; run the scene ` +
-                    'with [output] vertex = ["contact_force"]',
-            );
-        } else if (color === "speed" && moment.bodies.some((body) => !body.speed)) {
-            this.refuseColor("here is no speed to color by; open a run of pent-sim");
-        } else if (color === "strain" && moment.bodies.some((body) => !body.strain)) {
+        if (!this.colorings.find(({ name }) => name === color)?.isThere) {
+            this.refuseColor(color);
+        } else if (color === "strain" && moment.bodies.some((_, i) => !this.quantity(color, i))) {
             void this.addStrain(moment);
         }
         const { surfaces } = this.renderer;
         surfaces.setBoxes(this.boxes.of(moment.obstacles, this.run!.dimension));
         surfaces.setFrame(
             moment.bodies,
-            moment.bodies.map((body) => this.scalarOf(body)),
+            moment.bodies.map((_, i) => this.scalarOf(i)),
         );
         this.growRange(moment);
         if (isNew) {
@@ -352,20 +366,44 @@ export class Viewer {
         this.requestDraw();
     }
 
-    private refuseColor(text: string): void {
-        this.tell("notice", { text, isError: true });
-        this.state = { ...this.state, color: "body" };
+    // Of a body at the moment shown.
+    private quantity(name: string, body: number): Float32Array | undefined {
+        return quantityOf(this.run!.bodies[body]!, this.moment!.bodies[body]!, name);
+    }
+
+    private refuseColor(color: string): void {
+        this.tell("notice", { text: this.refusalOf(color), isError: true });
+        this.state = { ...this.state, color: "body", range: null };
         this.tell("state", this.state);
+    }
+
+    private refusalOf(color: string): string {
+        if (color === "w") {
+            return "bodies of three dimensions have no w to color by";
+        }
+        if (color === "speed") {
+            return "here is no speed to color by; open a run of pent-sim";
+        }
+        if (color === "strain") {
+            return "here is no strain to color by: it needs the cells, and the mesh at rest";
+        }
+        const { bodies } = this.run!;
+        const where = bodies.find((_, i) => !this.quantity(color, i))!;
+        const frame = `frame ${this.moment!.frame} of "${where.name}" has`;
+        if (kColorings.includes(color)) {
+            const asked = color === "force" ? "contact_force" : color;
+            return (
+                `${frame} no ${color === "force" ? "contact forces" : color} to color by; ` +
+                `run the scene with [output] vertex = ["${asked}"]`
+            );
+        }
+        const names = this.colorings.filter(({ isThere }) => isThere).map(({ name }) => name);
+        return `${frame} nothing called "${color}" to color by; there are ${names.join(", ")}`;
     }
 
     private async addStrain(moment: Moment): Promise<void> {
         try {
-            if (!(await this.run!.addStrain(moment))) {
-                this.refuseColor(
-                    "here is no strain to color by: it needs the cells, and the mesh at rest",
-                );
-                return;
-            }
+            await this.run!.addStrain!(moment);
             this.stream?.recount(this.placeOf(moment.frame), moment);
         } catch (error) {
             if (!(error instanceof PentError)) {
@@ -378,29 +416,25 @@ export class Viewer {
         }
     }
 
-    private scalarOf(body: BodyFrame): Float32Array | null {
+    private scalarOf(body: number): Float32Array | null {
         const { color } = this.state;
         if (color === "body" || color === "w") {
             return null;
         }
-        return body[color] ?? new Float32Array(body.positions.length / 4);
+        return this.quantity(color, body) ?? new Float32Array(this.run!.bodies[body]!.vertexCount);
     }
 
     private growRange(moment: Moment): void {
         const { color } = this.state;
         const done = this.rangeDone.get(color) ?? new WeakSet();
         this.rangeDone.set(color, done);
-        if (
-            color === "body" ||
-            color === "w" ||
-            done.has(moment) ||
-            moment.bodies.some((body) => !body[color])
-        ) {
+        const values = moment.bodies.map((_, i) => this.quantity(color, i));
+        if (done.has(moment) || values.some((one) => !one)) {
             return;
         }
         done.add(moment);
-        for (const body of moment.bodies) {
-            const [low, high] = suitableRange(body[color]!, color);
+        for (const one of values) {
+            const [low, high] = suitableRange(one!, color);
             const known = this.ranges.get(color);
             this.ranges.set(
                 color,

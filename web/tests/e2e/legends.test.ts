@@ -1,9 +1,30 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
+import { gridMesh } from "../../src/run/example.ts";
 import { openPage, useBrowser, useServer } from "../support/browser.ts";
+import { writeFrame, writeMesh } from "../support/write_pent.ts";
 
 const browser = useBrowser();
-const server = useServer(new Map());
+
+// Ten bodies, one of a name as long as names may be.
+const kMesh = writeMesh(gridMesh([1, 1, 1, 1], (p) => p));
+const kPositions = [...gridMesh([1, 1, 1, 1], (p) => p).positions];
+const kNames = ["a".repeat(100), ..."bcdefghij"];
+const server = useServer(
+    new Map<string, Uint8Array | string>([
+        [
+            "many/run.json",
+            JSON.stringify({
+                meshes: kNames,
+                frames: Object.fromEntries(kNames.map((name) => [name, [[0, 0]]])),
+            }),
+        ],
+        ...kNames.flatMap((name): [string, Uint8Array][] => [
+            [`many/meshes/${name}.pent`, kMesh],
+            [`many/frames/${name}_000000.pent`, writeFrame(kMesh, 0, 0, kPositions, kPositions)],
+        ]),
+    ]),
+);
 const open = (query: string) => openPage(browser.get(), server.address() + query);
 
 test("where no body is in the slice that is said, in words as well", async () => {
@@ -15,6 +36,24 @@ test("where no body is in the slice that is said, in words as well", async () =>
     await page.evaluate(() => window.pentimento!.viewer.update({ w: 0.4 }));
     await label.waitFor({ state: "detached" });
     assert.match((await canvas.getAttribute("aria-label"))!, /^Slice at w = 0\.4 m of Tesseract/);
+    await close();
+});
+
+test("a legend of bodies is within the picture, whatever they are called and however many they are", async () => {
+    const { page, close } = await openPage(
+        browser.get(),
+        `${server.address()}?run=many#shade=off`,
+        {
+            viewport: { width: 390, height: 600 },
+        },
+    );
+    const entries = page.locator(".legend .entry");
+    await entries.first().waitFor();
+    assert.equal(await entries.count(), 8);
+    assert.match(await page.locator(".legend").innerText(), /\nand 2 more$/);
+    const { x, width } = (await entries.first().boundingBox())!;
+    assert.ok(x >= 195 && x + width <= 390, `${x} ${width}`);
+    assert.equal(await entries.first().getAttribute("title"), kNames[0]);
     await close();
 });
 

@@ -146,7 +146,7 @@ test("an exported page opens from a file and shows what the run has", async (t) 
             const [body] = moment!.bodies;
             return {
                 positions: [...body!.positions],
-                strain: [...body!.strain!],
+                strain: [...body!.quantities.get("strain")!],
                 time: moment!.time,
                 obstacles: moment!.obstacles,
             };

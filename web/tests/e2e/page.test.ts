@@ -207,7 +207,7 @@ test("colors by force, speed and strain have a legend; a mesh says what it lacks
     const mesh = await open("?run=tet.pent#color=force&shade=off");
     assert.match(
         await errorText(mesh.page),
-        /^frame 0 has no contact forces to color by; run the scene/,
+        /^frame 0 of "tet" has no contact forces to color by; run the scene/,
     );
     assert.equal((await state(mesh.page)).color, "body");
     await mesh.close();

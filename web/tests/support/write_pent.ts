@@ -8,7 +8,7 @@ export function crcOf(file: Uint8Array): string {
     return /crc32c ([0-9a-f]{8})/.exec(Buffer.from(file).toString("latin1"))![1]!;
 }
 
-/** A binary frame of four dimensions, with velocities and, if given, contact forces. */
+/** A binary frame of four dimensions, with velocities and, if given, contact forces and numbers of vertices by name. */
 export function writeFrame(
     mesh: Uint8Array,
     frame: number,
@@ -16,13 +16,17 @@ export function writeFrame(
     positions: number[],
     velocities: number[],
     forces: number[] = [],
+    fields: Record<string, number[]> = {},
 ): Uint8Array {
     const columns = [positions, velocities, ...(forces.length > 0 ? [forces] : [])].map((values) =>
         rowsOf(values, 4),
     );
     const body = bytesOf(
         columns[0]!.map((_, v) => ({
-            doubles: columns.flatMap((column) => column[v]!),
+            doubles: [
+                ...columns.flatMap((column) => column[v]!),
+                ...Object.values(fields).map((values) => values[v]!),
+            ],
             whole: [],
         })),
     );
@@ -42,6 +46,7 @@ export function writeFrame(
             ...prefixes.flatMap((prefix) =>
                 [..."xyzw"].map((axis) => `property double ${prefix}${axis}`),
             ),
+            ...Object.keys(fields).map((name) => `property double ${name}`),
             "end_header",
         ],
         body,

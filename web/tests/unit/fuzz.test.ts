@@ -121,12 +121,13 @@ function exported(): Map<string, string> {
         Buffer.from(array.buffer, array.byteOffset, array.byteLength).toString("base64");
     const frame = new Uint8Array(grid.vertexCount * (8 + 1)).fill(100);
     const description = {
-        version: 1,
+        version: 2,
         title: "run",
         dimension: 4,
         low: [-1, -1, -1, -1],
         high: [1, 1, 1, 1],
-        maxima: { speed: 2, strain: null, force: null },
+        quantities: [{ name: "speed", low: 0, high: 2 }],
+        fields: [{ name: "heat", low: 290, high: 300 }],
         bodies: [
             { name: "a", vertices: grid.vertexCount, cells: grid.cellCount, facets: facetCount },
         ],
@@ -139,6 +140,7 @@ function exported(): Map<string, string> {
     return new Map([
         ["pent-run", JSON.stringify(description)],
         ["pent-facets", base64(facets)],
+        ["pent-fields", base64(new Uint8Array(grid.vertexCount).fill(51))],
         ["pent-frame-0", base64(frame)],
         ["pent-frame-1", base64(frame)],
     ]);
@@ -179,7 +181,7 @@ test("an exported page that was damaged says so, and whatever is in it", async (
     let refused = 0;
     for (let i = 0; i < 1200; ++i) {
         const parts = exported();
-        const id = ["pent-run", "pent-run", "pent-facets", "pent-frame-1"][i % 4]!;
+        const id = ["pent-run", "pent-facets", "pent-fields", "pent-frame-1"][i % 4]!;
         const bytes = damage(new TextEncoder().encode(parts.get(id)), random);
         refused += (await openExported(parts.set(id, text(bytes)))) === "" ? 0 : 1;
     }

@@ -139,7 +139,7 @@ bounds.settle([roomMoment([-1, -1, -1, -1], [2, 1, 1, 1])]);
 
 function roomMoment(low: number[], high: number[]) {
     const positions = Float32Array.from([...low, ...high]);
-    const body = { positions, speed: null, force: null, strain: null };
+    const body = { positions, quantities: new Map() };
     return { frame: 0, time: 0, bodies: [body], obstacles: [] as Obstacle[] };
 }
 

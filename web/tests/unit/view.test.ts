@@ -140,9 +140,7 @@ function boundsOf(points: number[][]): Bounds {
         bodies: [
             {
                 positions: Float32Array.from(points.flat()),
-                speed: null,
-                force: null,
-                strain: null,
+                quantities: new Map(),
             },
         ],
     };

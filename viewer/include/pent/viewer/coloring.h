@@ -70,19 +70,9 @@ template <int Dim>
 template <int Dim>
 [[nodiscard]] std::vector<ColorBy> field_colorings(const Body<Dim>& body, const Frame<Dim>& frame);
 
-/// Whether frames may lack a quantity that is no field, and this one does not have it.
+/// Whether frames may lack a quantity that is no field, and neither this one nor its mesh has it.
 template <int Dim>
-[[nodiscard]] bool lacks(const Frame<Dim>& frame, const ColorBy& by) {
-    switch (by.kind) {
-        case ColorBy::Force:
-            return frame.contact_forces.cols() == 0;
-        case ColorBy::Reaction:
-        case ColorBy::EnergyDensity:
-            return find_field(frame, name_of(by)) == nullptr;
-        default:
-            return false;
-    }
-}
+[[nodiscard]] bool lacks(const Body<Dim>& body, const Frame<Dim>& frame, const ColorBy& by);
 
 /// Colors of the vertices of a surface, 3 x vertices, linear light.
 ///

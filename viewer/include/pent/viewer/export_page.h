@@ -24,8 +24,8 @@ struct ExportReport {
 /// Writes a run into one page that opens by a double click, without a server.
 ///
 /// Of each body it holds the boundary alone: positions in 16 bits a coordinate over the box of the
-/// whole run, speed, strain and, where frames have them, contact forces in 8 bits. A run of one
-/// mesh has neither speed nor forces.
+/// whole run, and in 8 bits what all bodies can be colored by, quantities of their meshes once. A
+/// run of one mesh has neither speed nor strain nor forces.
 ///
 /// Throws an Error if a frame cannot be read, the page is not that of the viewer, or the file would
 /// be larger than most_bytes; then the message says how large, before any work.
