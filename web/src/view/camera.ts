@@ -26,8 +26,7 @@ export interface Camera {
 
 export const kFieldOfView = 28; // degrees upright, as pent-render has it
 
-/** The camera that sees a ball of this center and radius at zoom 1: nearly all of it upright, as bodies touch it in few
- * places, and all of it across, where they are long. */
+/** The camera that sees a ball of this center and radius at zoom 1, with a little room around it. */
 export function makeCamera(orbit: Orbit, center: Vector, radius: number, aspect: number): Camera {
     const azimuth = (orbit.azimuth * Math.PI) / 180;
     const elevation = (orbit.elevation * Math.PI) / 180;
@@ -41,7 +40,7 @@ export function makeCamera(orbit: Orbit, center: Vector, radius: number, aspect:
     const half = (kFieldOfView * Math.PI) / 360;
     const slope = Math.tan(half);
     const across = Math.atan(slope * aspect);
-    const fitting = Math.max(0.93 / Math.sin(half), 1.05 / Math.sin(across));
+    const fitting = 1.02 / Math.sin(Math.min(half, across));
     const distance = (fitting * radius) / orbit.zoom;
     const target = add(add(center, right, orbit.panX * radius), up, orbit.panY * radius);
     const eye = add(target, scale(back, distance));

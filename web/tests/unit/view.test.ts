@@ -236,6 +236,27 @@ test("the camera sees what it looks at in the middle, and depth between near and
     assert.ok(Math.abs(x / w) < 1e-5 && Math.abs(y / w) < 1e-5 && Math.abs(z / w) < 1);
 });
 
+test("the camera sees the whole ball, and little else, in pictures of any shape", () => {
+    const random = randomFrom(5);
+    for (const aspect of [0.3, 1, 1.6, 4]) {
+        const camera = makeCamera(
+            { azimuth: 40, elevation: 20, zoom: 1, panX: 0, panY: 0 },
+            [1, 2, 3],
+            2,
+            aspect,
+        );
+        let most = 0;
+        for (let i = 0; i < 20000; ++i) {
+            const direction = [0, 1, 2].map(() => random() + random() + random() - 1.5);
+            const scale = 2 / Math.hypot(...direction);
+            const at = direction.map((value, k) => k + 1 + scale * value);
+            const [x, y, , w] = transform(camera.viewProjection, at as [number, number, number]);
+            most = Math.max(most, Math.abs(x / w), Math.abs(y / w));
+        }
+        assert.ok(most > 0.95 && most <= 1, `${most} at ${aspect}`);
+    }
+});
+
 test("colors are clamped at the ends, and those of bodies begin again after eight", () => {
     assert.deepEqual(mapColor("speed", -5), mapColor("speed", 0));
     assert.deepEqual(mapColor("w", 7), mapColor("w", 1));
