@@ -111,9 +111,9 @@ TEST(G4mf, HasDoublesWhereFloatsAreTooSmall) {
     TetSurface right = near;
     left.points *= -3e38;  // floats hold both, and not the way from one to the other
     right.points *= 3e38;
-    for (const auto& [surface, frame] :
-         {std::pair(far, far), std::pair(near, far), std::pair(left, right)}) {
-        const std::vector<FramePoints> frames = {{"moved", frame.points}};
+    for (const auto& moved : {std::pair(far, far), std::pair(near, far), std::pair(left, right)}) {
+        const TetSurface& surface = moved.first;
+        const std::vector<FramePoints> frames = {{"moved", moved.second.points}};
         pent::test::expect_contains(
             pent::test::error_of([&] { (void)text_as("a.g4b", surface, {.frames = frames}); }),
             {"a.g4b: coordinates beyond what float holds; write doubles"});
