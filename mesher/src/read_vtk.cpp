@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <array>
+#include <charconv>
 #include <optional>
 #include <string>
 #include <system_error>
@@ -57,6 +58,25 @@ std::int64_t components_of(std::string_view keyword) {
         }
     }
     return 0;
+}
+
+// A name is one word in the file: "%20" stands for a space, as do other two digits behind a "%" for
+// the byte of that number.
+std::string decoded(std::string_view word) {
+    std::string name;
+    for (std::size_t i = 0; i < word.size(); ++i) {
+        unsigned byte = 0;
+        const std::string_view digits = word.substr(i + 1, 2);
+        const char* const end = digits.data() + digits.size();
+        if (word[i] == '%' && digits.size() == 2
+            && std::from_chars(digits.data(), end, byte, 16).ptr == end) {
+            name += static_cast<char>(byte);
+            i += 2;
+        } else {
+            name += word[i];
+        }
+    }
+    return name;
 }
 
 // The corners of all cells one after the other, and where each begins; one more for the end.
@@ -245,16 +265,16 @@ private:
             } else if (keyword == "SCALARS") {
                 arrays.push_back(read_scalars(rows));
             } else if (const std::int64_t components = components_of(keyword); components > 0) {
-                const std::string name(text_.next_word("the name of an array"));
+                const std::string name = decoded(text_.next_word("the name of an array"));
                 arrays.push_back(
                     read_values(name, components, rows, std::string(text_.next_word("a type"))));
             } else if (keyword == "TEXTURE_COORDINATES") {
-                const std::string name(text_.next_word("the name of an array"));
+                const std::string name = decoded(text_.next_word("the name of an array"));
                 const std::int64_t dimension = line_count();
                 arrays.push_back(
                     read_values(name, dimension, rows, std::string(text_.next_word("a type"))));
             } else if (keyword == "COLOR_SCALARS") {
-                const std::string name(text_.next_word("the name of an array"));
+                const std::string name = decoded(text_.next_word("the name of an array"));
                 arrays.push_back(read_values(name, line_count(), rows, "unsigned_char"));
             } else if (keyword == "FIELD") {
                 read_field(arrays, rows);
@@ -285,7 +305,7 @@ private:
     }
 
     VtkArray read_scalars(std::int64_t rows) {
-        const std::string name(text_.next_word("the name of an array"));
+        const std::string name = decoded(text_.next_word("the name of an array"));
         const std::string type(text_.next_word("a type"));
         const std::string_view word = text_.word();
         const std::int64_t components =
@@ -318,7 +338,7 @@ private:
             if (type == "string") {
                 skip_strings(components * rows);
             } else {
-                arrays.push_back(read_values(name, components, rows, type));
+                arrays.push_back(read_values(decoded(name), components, rows, type));
             }
         }
     }

@@ -7,6 +7,7 @@
 #include <pent/mesher/shapes.h>
 #include <pent/mesher/space_time.h>
 
+#include <Eigen/QR>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -211,6 +212,96 @@ TEST(BarycentricCut, FillsTheMeshAndMovesWithIt) {
         EXPECT_LT((cut.vertex_fields[0].values[frame] - heights).cwiseAbs().maxCoeff(), 1e-15);
     }
     EXPECT_EQ(cut.base.regions, std::vector<std::uint16_t>(48 * 24, 3));
+}
+
+// Everything at once: the ball is cut for bisection, grows, and is written as slabs. Where a piece
+// came from shows in where it is.
+TEST(BarycentricCut, HandsDownRegionsLabelsAndQuantities) {
+    const SimplexMesh<3> base = ball(1);
+    const auto grow = [](const Eigen::Vector3d& x, double t) -> Eigen::Vector3d {
+        return (1 + t) * x;
+    };
+    MovingMesh moving = test::moving(base, {0, 1, 2}, grow);
+    for (Eigen::Index cell = 0; cell < base.cell_count(); ++cell) {
+        moving.base.regions.push_back(static_cast<std::uint16_t>(cell % 5));
+    }
+    moving.triangles = match_facets<3>(base.cells, base.vertex_count()).boundary;
+    for (Eigen::Index t = 0; t < moving.triangles.cols(); ++t) {
+        moving.triangle_labels.push_back(static_cast<std::uint16_t>(10 + t));
+    }
+    moving.vertex_fields = {{"place", {}}};
+    moving.cell_fields = {{"fiber", {}}, {"number", {}}};
+    for (std::size_t frame = 0; frame < 3; ++frame) {
+        moving.vertex_fields[0].values.emplace_back(moving.positions[frame]);
+        Eigen::MatrixXd fibers(3, base.cell_count());
+        for (Eigen::Index cell = 0; cell < base.cell_count(); ++cell) {
+            fibers.col(cell) << static_cast<double>(cell), 1, 2;
+        }
+        moving.cell_fields[0].values.push_back(fibers);
+        moving.cell_fields[1].values.emplace_back(fibers.row(0));
+    }
+    const SpaceTimeBody body =
+        make_space_time(moving, {.refine_time = 2, .is_bisection_ready = true});
+    ASSERT_EQ(body.mesh.cell_count(), 20 * 24 * 4 * 4);
+    const auto at_start = [&](std::uint32_t v) -> Eigen::Vector3d {
+        return body.mesh.positions.col(v).head<3>() / (1 + body.mesh.positions(3, v));
+    };
+    const auto weights_in = [&](const auto& corners, const Eigen::Vector3d& p) {
+        Eigen::MatrixXd places(4, corners.size());
+        for (Eigen::Index i = 0; i < corners.size(); ++i) {
+            places.col(i) << base.positions.col(corners[i]), 1;
+        }
+        const Eigen::Vector4d one(p[0], p[1], p[2], 1);
+        const Eigen::VectorXd weights = places.colPivHouseholderQr().solve(one);
+        EXPECT_LT((places * weights - one).norm(), 1e-14);
+        return weights;
+    };
+    for (Eigen::Index v = 0; v < body.mesh.vertex_count(); ++v) {
+        EXPECT_LT((body.extras.vertex_fields[0].values.col(v).head<3>()
+                   - body.mesh.positions.col(v).head<3>())
+                      .norm(),
+                  1e-15);
+    }
+    for (Eigen::Index cell = 0; cell < body.mesh.cell_count(); ++cell) {
+        const auto tet = static_cast<Eigen::Index>(body.extras.cell_fields[0].values(0, cell));
+        EXPECT_EQ(body.mesh.fibers.col(cell), Eigen::Vector4d(static_cast<double>(tet), 1, 2, 0));
+        EXPECT_EQ(body.mesh.regions[cell], tet % 5);
+        Eigen::Vector3d middle = Eigen::Vector3d::Zero();
+        for (const std::uint32_t corner : body.mesh.cells.col(cell)) {
+            middle += at_start(corner) / 5;
+        }
+        EXPECT_GT(weights_in(base.cells.col(tet), middle).minCoeff(), 0.01);
+    }
+    std::map<int, int> sides;
+    for (Eigen::Index f = 0; f < body.extras.boundary.cols(); ++f) {
+        if (body.extras.labels[f] == static_cast<std::uint16_t>(BoundaryLabel::Lateral)) {
+            const int label = body.extras.base_labels[f];
+            ASSERT_GE(label, 10);
+            ++sides[label];
+            Eigen::Vector3d middle = Eigen::Vector3d::Zero();
+            for (const std::uint32_t corner : body.extras.boundary.col(f)) {
+                middle += at_start(corner) / 4;
+            }
+            EXPECT_GT(weights_in(moving.triangles.col(label - 10), middle).minCoeff(), 0.01);
+        }
+    }
+    EXPECT_EQ(sides.size(), 20U);
+    for (const auto& [label, count] : sides) {
+        EXPECT_EQ(count, 6 * 3 * 4) << label;
+    }
+    for (std::size_t slab = 0; slab < 2; ++slab) {
+        std::vector<std::uint8_t> tags;
+        for (Eigen::Index cell = 0; cell < body.mesh.cell_count(); ++cell) {
+            std::uint32_t layer = 4;
+            for (const std::uint32_t corner : body.mesh.cells.col(cell)) {
+                layer = std::min(layer, body.mesh.layers[corner]);
+            }
+            if (layer / 2 == slab) {
+                tags.push_back(body.extras.bisection_tags[cell]);
+            }
+        }
+        EXPECT_EQ(slab_of(body, slab).extras.bisection_tags, tags);
+    }
 }
 
 }  // namespace

@@ -269,6 +269,12 @@ TEST(BoundarySolid, MendsWhatIsMissingRepeatedOrTurned) {
     }
     expect_mended_as(sound, flipped, "some are turned over");
     expect_mended_as(sound, without(flipped, {count / 3}), "turned over, and one is missing");
+    EXPECT_EQ(boundary_solid(flipped, "flipped").report.turned, 3);
+    TetSurface extra = joined(sound, some_of(sound, {3, 4, 5}));
+    extra.tetrahedra(1, count) = extra.tetrahedra(0, count);
+    const BoundaryReport report = boundary_solid(extra, "extra").report;
+    EXPECT_EQ(report.repeated, 2);
+    EXPECT_EQ(report.degenerate, 1);
 }
 
 TEST(BoundarySolid, TakesPointsAtOnePlaceForOne) {
@@ -294,6 +300,16 @@ TEST(BoundarySolid, UnitesWhatCrossesItself) {
     for (int i = 0; i < 2000; ++i) {
         const Vector4d p = random_point(random, 1.5);
         EXPECT_EQ(body.solid.value(p) < 0, both.value(p) < 0) << p.transpose();
+    }
+    // Turned inside out, and open: parts are outward again, or what both have would be outside.
+    const TetSurface second = moved(tesseract(1), by);
+    const TetSurface open = without(joined(tesseract(1), turned(second)), {3, 60});
+    const BoundarySolid closed = boundary_solid(open, "open");
+    EXPECT_EQ(closed.report.holes, 2);
+    EXPECT_EQ(closed.report.turned, second.tetrahedra.cols() - 1);
+    for (int i = 0; i < 2000; ++i) {
+        const Vector4d p = random_point(random, 1.5);
+        EXPECT_EQ(closed.solid.value(p) < 0, both.value(p) < 0) << p.transpose();
     }
     const TetSurface nested = joined(tesseract(1.5), moved(tesseract(0.5), by / 8));
     const BoundarySolid outer = boundary_solid(nested, "nested");

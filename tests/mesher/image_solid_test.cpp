@@ -7,6 +7,7 @@
 #include <pent/mesher/image_solid.h>
 #include <pent/mesher/links.h>
 #include <pent/mesher/make_body.h>
+#include <pent/mesher/primitives.h>
 #include <pent/mesher/prove.h>
 #include <pent/mesher/read_solid.h>
 #include <pent/mesher/stuff.h>
@@ -110,6 +111,37 @@ TEST(ImageSolid, CutsOffWhatReachesTheSides) {
     const StuffedSolid half = stuff(image_solid(image, 0.5), 0.25);
     EXPECT_EQ(check_links(half.mesh).faulty, 0);
     EXPECT_NEAR(total_volume(half.mesh), 0.5, 0.01);
+}
+
+// An image that is near its level far away is as good as on it there: a body that blends with it
+// grows by `smooth` itself.
+std::shared_ptr<const Image> faint_image() {
+    return std::make_shared<const Image>(test::sampled(
+        {5, 5, 5, 5}, Vector4d::Ones(),
+        [](const Vector4d& p) { return (p - Vector4d::Constant(2)).norm() < 1 ? 1000 : 9.99; }));
+}
+
+TEST(ImageSolid, LeavesRoomForWhatABlendAdds) {
+    const Solid faint = image_solid(faint_image(), 10);
+    const Solid box =
+        place(box_solid(Vector4d::Ones()), 1, Eigen::Matrix4d::Identity(), {2, 2, 2, 4});
+    const Vector4d top(2, 2, 2, 6.48);
+    for (const Solid& solid : {unite(faint, box, 2), unite(box, faint, 2)}) {
+        EXPECT_LT(solid.value(top), 0);
+        EXPECT_GE(solid.bounds().high[3], top[3]);
+    }
+    const StuffedSolid stuffed = stuff(unite(faint, box, 2), 0.9);
+    EXPECT_EQ(describe_faults(prove(stuffed.mesh), 4), "");
+    EXPECT_EQ(check_links(stuffed.mesh).faulty, 0);
+    EXPECT_NEAR(stuffed.mesh.positions.row(3).maxCoeff(), 6.5, 0.02);
+}
+
+TEST(ImageSolid, SaysWhereABlendHasNoEnd) {
+    const Solid faint = image_solid(faint_image(), 10);
+    const Solid other = place(faint, 1, Eigen::Matrix4d::Identity(), {0.5, 0, 0, 0});
+    test::expect_contains(
+        test::error_of([&] { static_cast<void>(stuff(unite(faint, other, 2), 0.9)); }),
+        {"the shape reaches beyond its bounds, at (", "\"smooth\""});
 }
 
 TEST(ImageSolid, SaysWhichLevelsThereAre) {

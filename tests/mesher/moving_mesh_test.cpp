@@ -257,6 +257,29 @@ TEST(ReadMovingMesh, CountsTrianglesWithoutALabelAmongWhatIsLeftOut) {
     EXPECT_EQ(mesh.left_out, "1 triangle");
 }
 
+// Between two tetrahedra and beside both there is nothing that a label could stand on.
+TEST(ReadMovingMesh, CountsTrianglesOffTheBoundaryAmongWhatIsLeftOut) {
+    const test::TempFolder folder;
+    test::VtuParts parts = rich_parts(0);
+    parts.points.conservativeResize(3, 6);
+    parts.points.col(5) << 2, 2, 2;
+    parts.temperature.push_back(1);
+    parts.triangles.resize(3, 4);
+    parts.triangles << 0, 1, 3, 1, 1, 2, 2, 4, 2, 3, 1, 5;
+    parts.regions = {3, 4, 9, 8, 7, 6};
+    parts.cell_vectors.resize(3 * parts.regions.size(), 1);
+    test::write_file(folder / "0.vtu", test::to_vtu(parts, {}));
+    test::VtuParts later = parts;
+    later.points *= 2;
+    test::write_file(folder / "1.vtu", test::to_vtu(later, {}));
+    const MovingMesh mesh =
+        read_moving_mesh(write_pvd(folder.path(), {{0, "0.vtu"}, {1, "1.vtu"}}));
+    EXPECT_EQ(mesh.triangle_labels, (std::vector<std::uint16_t>{9}));
+    ASSERT_EQ(mesh.triangles.cols(), 1);
+    EXPECT_EQ(mesh.triangles.col(0), Eigen::Vector3<std::uint32_t>(0, 1, 2));
+    EXPECT_EQ(mesh.left_out, "3 triangles with a label that are not on the boundary");
+}
+
 TEST(ReadMovingMesh, CountsCellsOfHigherOrder) {
     const test::TempFolder folder;
     const std::string text =
@@ -376,6 +399,25 @@ TEST(ReadVtk, ReadsArraysOfPointsAndCells) {
         test::error_of(
             [&] { static_cast<void>(read_moving_mesh(folder / "f0.vtk", {.time_step = 1})); }),
         {"f1.vtk: line ", "data of 4 points, of 5"});
+}
+
+// VTK writes a name as one word; what is no byte in two digits is what it is.
+TEST(ReadVtk, DecodesTheNamesOfArrays) {
+    const test::TempFolder folder;
+    const std::string mesh =
+        test::to_legacy_vtk({rich_parts(0).points, rich_parts(0).tetrahedra, {}, {}, {}, {}});
+    for (const auto& [word, name] : std::vector<std::pair<std::string, std::string>>{
+             {"my%20labels", "my labels"}, {"a%25%2f", "a%/"}, {"%4", "%4"}, {"%g1%", "%g1%"}}) {
+        const std::vector<std::string> ways = {
+            "SCALARS " + word + " int 1\nLOOKUP_TABLE default\n3 4\n",
+            "FIELD FieldData 1\n" + word + " 1 2 int\n3 4\n", "GLOBAL_IDS " + word + " int\n3 4\n"};
+        for (const std::string& way : ways) {
+            test::write_file(folder / "a.vtk", mesh + "CELL_DATA 2\n" + way);
+            EXPECT_EQ(read_tetrahedra(folder / "a.vtk", "", name).mesh.regions,
+                      (std::vector<std::uint16_t>{3, 4}))
+                << way;
+        }
+    }
 }
 
 // Every keyword of arrays that VTK has; the regions stand behind all others.

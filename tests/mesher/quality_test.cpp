@@ -6,8 +6,12 @@
 #include <Eigen/QR>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
 #include <numbers>
+#include <numeric>
 #include <random>
+#include <vector>
 
 namespace pent::mesher {
 namespace {
@@ -124,6 +128,45 @@ TEST(MeasureQuality, SumsUpWhatMeasureCellSays) {
     }
     EXPECT_EQ(counted, mesh.cell_count());
     EXPECT_NE(quality_text(report).find("worst cells: "), std::string::npos);
+}
+
+// Of 401 values the places of all percentiles are whole numbers.
+TEST(MeasureQuality, HasThePercentilesOfEveryMeasure) {
+    SimplexMesh<2> mesh;
+    constexpr int kCells = 401;
+    mesh.positions.resize(2, 3 * kCells);
+    mesh.cells.resize(3, kCells);
+    std::mt19937 random(12);
+    std::uniform_real_distribution<double> coordinate(0.1, 1);
+    std::vector<std::vector<double>> values(4);
+    for (int cell = 0; cell < kCells; ++cell) {
+        Corners<2> corners;
+        corners << 0, 1, -coordinate(random), 0, coordinate(random) - 0.1, 2 * coordinate(random);
+        mesh.positions.middleCols<3>(3 * cell) = corners;
+        mesh.cells.col(cell) << 3U * cell, 3U * cell + 1, 3U * cell + 2;
+        const CellQuality quality = measure_cell<2>(corners);
+        values[0].push_back(quality.mean_ratio);
+        values[1].push_back(quality.condition);
+        values[2].push_back(quality.smallest_angle);
+        values[3].push_back(quality.largest_angle);
+    }
+    const QualityReport report = measure_quality(mesh);
+    const std::array<Spread, 4> spreads = {report.mean_ratio, report.condition,
+                                           report.smallest_angle, report.largest_angle};
+    for (std::size_t measure = 0; measure < 4; ++measure) {
+        std::vector<double>& sorted = values[measure];
+        const Spread& spread = spreads[measure];
+        EXPECT_NEAR(spread.mean, std::accumulate(sorted.begin(), sorted.end(), 0.0) / kCells,
+                    1e-12 * spread.mean);
+        std::sort(sorted.begin(), sorted.end());
+        EXPECT_EQ(spread.min, sorted[0]);
+        EXPECT_EQ(spread.percentile_1, sorted[4]);
+        EXPECT_EQ(spread.percentile_5, sorted[20]);
+        EXPECT_EQ(spread.median, sorted[200]);
+        EXPECT_EQ(spread.percentile_95, sorted[380]);
+        EXPECT_EQ(spread.percentile_99, sorted[396]);
+        EXPECT_EQ(spread.max, sorted[400]);
+    }
 }
 
 TEST(QualitySvg, DrawsABarForEachBinAndEscapesTheTitle) {

@@ -95,6 +95,8 @@ TYPED_TEST(SubdivideInDimension, MakesEqualConformingChildren) {
         SimplexMesh<kDim> coarse = box<kDim>(count, size, cut);
         coarse.regions.assign(coarse.cell_count(), 3);
         coarse.regions.back() = 4;
+        coarse.fibers.setConstant(kDim, coarse.cell_count(), 1);
+        coarse.fibers.row(0).setLinSpaced(1, static_cast<double>(coarse.cell_count()));
         for (const int k : {1, 2, 3}) {
             const SimplexMesh<kDim> fine = subdivide<kDim>(coarse, k);
             validate(fine, "finer");
@@ -105,6 +107,7 @@ TYPED_TEST(SubdivideInDimension, MakesEqualConformingChildren) {
                 EXPECT_NEAR(cell_volume<kDim>(fine.positions, fine.cells, cell) * std::pow(k, kDim),
                             cell_volume<kDim>(coarse.positions, coarse.cells, cell / children),
                             1e-15);
+                EXPECT_EQ(fine.fibers.col(cell), coarse.fibers.col(cell / children));
             }
             EXPECT_EQ(fine.positions.leftCols(coarse.vertex_count()), coarse.positions);
             EXPECT_EQ(fine.regions.front(), 3);

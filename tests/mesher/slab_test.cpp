@@ -76,6 +76,25 @@ TEST(SpaceTime, CarriesRegionsAndFields) {
     }
 }
 
+TEST(SpaceTime, TakesFibersFromEitherEndInEveryFrame) {
+    const MovingMesh mesh = labeled_box();
+    MovingMesh turned = mesh;
+    for (std::size_t frame = 0; frame < 3; ++frame) {
+        for (Eigen::Index cell = 0; cell < mesh.base.cell_count(); ++cell) {
+            if ((cell + cell / 3 * static_cast<Eigen::Index>(frame)) % 2 == 1) {
+                turned.cell_fields[0].values[frame].col(cell) *= -1;
+            }
+        }
+    }
+    const SpaceTimeOptions options{.refine_time = 2};
+    const Positions<4> fibers = make_space_time(mesh, options).mesh.fibers;
+    const Positions<4> of_turned = make_space_time(turned, options).mesh.fibers;
+    ASSERT_EQ(of_turned.cols(), fibers.cols());
+    for (Eigen::Index cell = 0; cell < fibers.cols(); ++cell) {
+        EXPECT_EQ(of_turned.col(cell) * (of_turned(0, cell) < 0 ? -1 : 1), fibers.col(cell));
+    }
+}
+
 TEST(SpaceTime, LabelsEveryFacetOfItsBoundary) {
     const MovingMesh mesh = labeled_box();
     const SpaceTimeBody body = make_space_time(mesh, {.time_scale = 5});

@@ -89,6 +89,60 @@ TEST(Solid, HoldsItsInsideWithinItsBounds) {
     }
 }
 
+// A point of the solid that is far along an axis, by climbing there in random steps.
+Vector4d farthest(const Solid& solid, Vector4d p, int axis, double sign, std::mt19937& random) {
+    int failures = 0;
+    for (double step = 0.3; step > 1e-3;) {
+        const Vector4d next = p + step * random_point(random);
+        if (solid.value(next) < 0 && sign * next[axis] > sign * p[axis]) {
+            p = next;
+            failures = 0;
+        } else if (++failures > 30) {
+            step /= 2;
+            failures = 0;
+        }
+    }
+    return p;
+}
+
+// Two of a kind make one that is larger by a quarter of `smooth` across each side: at corners that
+// is more.
+TEST(Solid, HoldsWhatABlendAddsWithinItsBounds) {
+    std::mt19937 random(6);
+    for (const Named& named : all_solids()) {
+        if (!named.solid.is_bounded()) {
+            continue;
+        }
+        Eigen::Matrix4d rotation = Eigen::Matrix4d::Identity();
+        for (const bool is_turned : {false, true}) {
+            if (is_turned) {
+                rotation = Eigen::Matrix4d(Eigen::Matrix4d::NullaryExpr(
+                                               [&] { return random_point(random)[0]; }))
+                               .householderQr()
+                               .householderQ();
+            }
+            const Vector4d middle(0.1, 0.2, 0, -0.3);
+            const Solid one = place(named.solid, 0.7, rotation, middle);
+            const Solid two = unite(one, one, 1);
+            const Solid four = place(unite(two, two, 0.4), 1.5, rotation, -middle);
+            for (const Solid& solid : {two, four}) {
+                Vector4d start = random_point(random);
+                while (solid.value(start) >= 0) {
+                    start = random_point(random);
+                }
+                for (int axis = 0; axis < 4; ++axis) {
+                    EXPECT_GE(farthest(solid, start, axis, -1, random)[axis],
+                              solid.bounds().low[axis])
+                        << named.name;
+                    EXPECT_LE(farthest(solid, start, axis, 1, random)[axis],
+                              solid.bounds().high[axis])
+                        << named.name;
+                }
+            }
+        }
+    }
+}
+
 TEST(Solid, IsDecidedByItsPieces) {
     std::mt19937 random(4);
     for (const Named& named : all_solids()) {
@@ -219,6 +273,41 @@ TEST(RegularPolytopes, HaveTheirVerticesAtTheirRadius) {
     }
 }
 
+// Groups on either side, within groups, are what their values say.
+TEST(Solid, CombinesWhatIsCombined) {
+    const std::vector<Solid> parts = {
+        ball_solid(0.9), box_solid({1, 1.4, 0.8, 1.2}), tiger_solid({0.7, 0.6}, 0.4),
+        place(duocylinder_solid({0.5, 0.8}), 1, Eigen::Matrix4d::Identity(), {0.3, 0, 0.2, 0})};
+    const Solid left = subtract(parts[0], parts[1]);
+    const Solid right = unite(parts[2], intersect(parts[3], parts[0]));
+    const Solid both = unite(left, right);
+    const Solid less = subtract(both, intersect(right, left));
+    std::mt19937 random(7);
+    for (int i = 0; i < 500; ++i) {
+        const Vector4d p = random_point(random);
+        std::vector<double> v;
+        for (const Solid& part : parts) {
+            v.push_back(part.value(p));
+        }
+        const double of_left = std::max(v[0], -v[1]);
+        const double of_right = std::min(v[2], std::max(v[3], v[0]));
+        EXPECT_EQ(both.value(p), std::min(of_left, of_right));
+        EXPECT_EQ(less.value(p),
+                  std::max(std::min(of_left, of_right), -std::max(of_left, of_right)));
+    }
+}
+
+TEST(Solid, IsAsThinAsItsThinnestPart) {
+    const Solid thin = spherinder_solid(1, 0.2);
+    const Solid thick = ball_solid(1);
+    for (const Solid& solid : {unite(thin, thick), unite(thick, thin), intersect(thick, thin),
+                               subtract(thick, thin), subtract(thin, thick)}) {
+        EXPECT_EQ(solid.smallest_width(), 0.2);
+        EXPECT_EQ(place(solid, 3, Eigen::Matrix4d::Identity(), {1, 2, 3, 4}).smallest_width(),
+                  3 * 0.2);
+    }
+}
+
 TEST(Solid, BlendsSmoothlyAndOnlyWhereBothAreNear) {
     const Solid a = half_space_solid({1, 0, 0, 0}, 0);
     const Solid b = half_space_solid({0, 1, 0, 0}, 0);
@@ -228,6 +317,8 @@ TEST(Solid, BlendsSmoothlyAndOnlyWhereBothAreNear) {
     EXPECT_DOUBLE_EQ(blended.value({-0.4, 0, 0, 0}), -0.4);
     const double before = blended.value({-0.4 + 1e-6, 0, 0, 0});
     EXPECT_NEAR((before + 0.4) / 1e-6, 1, 1e-5);  // the slope goes on
+    EXPECT_LE(blended.values_within({0, 0, 0, 0}, 0).low, -0.1);
+    EXPECT_GE(intersect(a, b, 0.4).values_within({0, 0, 0, 0}, 0).high, 0.1);
 }
 
 TEST(Solid, TakesAnExpressionWithinItsBox) {

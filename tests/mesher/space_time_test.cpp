@@ -171,6 +171,41 @@ TEST(SpaceTime, IsAProvedBodyWithAManifoldBoundary) {
     EXPECT_EQ(check_links<4>(body.mesh).faulty, 0);
 }
 
+TEST(SpaceTime, KnowsHowHighItsLayersAre) {
+    const auto still = [](const Eigen::Vector3d& x, double) { return x; };
+    const MovingMesh mesh = moving(ball(1), {0, 1, 1.25, 4}, still);
+    for (const int parts : {1, 2}) {
+        const SpaceTimeBody body = make_space_time(mesh, {.time_scale = 2, .refine_time = parts});
+        EXPECT_EQ(body.lowest_layer, 0.5 / parts);
+        EXPECT_EQ(body.highest_layer, 5.5 / parts);
+        for (std::uint32_t frame = 0; frame < 4; ++frame) {
+            EXPECT_EQ(body.frame_layers[frame], frame * static_cast<std::uint32_t>(parts));
+        }
+    }
+}
+
+// The order is chosen for a body at rest with layers of 0.7 edges, cut alike.
+TEST(SpaceTime, HasBetterCellsInAnOrderForQuality) {
+    const auto still = [](const Eigen::Vector3d& x, double) { return x; };
+    SimplexMesh<3> base = test::centered_box(2, 2);
+    std::mt19937 random(8);
+    std::vector<std::uint32_t> names(static_cast<std::size_t>(base.vertex_count()));
+    std::iota(names.begin(), names.end(), 0U);
+    std::shuffle(names.begin(), names.end(), random);
+    std::uniform_real_distribution<double> shift(-0.1, 0.1);
+    for (Eigen::Index v = 0; v < base.vertex_count(); ++v) {
+        base.positions.col(names[static_cast<std::size_t>(v)]) =
+            test::centered_box(2, 2).positions.col(v)
+            + Eigen::Vector3d(shift(random), shift(random), shift(random));
+    }
+    base.cells = base.cells.unaryExpr([&](std::uint32_t v) { return names[v]; }).eval();
+    const MovingMesh mesh = moving(base, {0, 0.7 * mean_edge<3>(base)}, still);
+    const auto worst = [&](VertexOrder order) {
+        return make_space_time(mesh, {.order = order}).quality.mean_ratio.min;
+    };
+    EXPECT_GT(worst(VertexOrder::Quality), worst(VertexOrder::Index));
+}
+
 TEST(SpaceTime, RefusesScalesAndStepsOutOfRange) {
     const MovingMesh mesh =
         moving(test::centered_box(1, 1), {0, 1}, [](const auto& x, double) { return x; });

@@ -99,7 +99,8 @@ BoundarySolid boundary_solid(const exchange::TetSurface& surface,
             + "; expected one that is closed and does not cross itself, or leave to mend it");
     }
     const Box4 box{closed.points.rowwise().minCoeff(), closed.points.rowwise().maxCoeff()};
-    return {solid_of(BoundaryField{std::move(boundary)}, box, (box.high - box.low).minCoeff()),
+    return {solid_of(BoundaryField{std::move(boundary)}, box, (box.high - box.low).minCoeff(),
+                     {1, true}),
             report};
 }
 

@@ -66,8 +66,8 @@ Solid image_solid(const std::shared_ptr<const Image>& image, double level) {
     const Box4 bounds = above->bounds();
     const bool is_cut = above->is_cut();
     const Box4 everywhere{Vector4d::Constant(-kInfinity), Vector4d::Constant(kInfinity)};
-    const Solid solid =
-        solid_of(ImageField{std::move(above)}, is_cut ? everywhere : bounds, kInfinity);
+    const Solid solid = solid_of(ImageField{std::move(above)}, is_cut ? everywhere : bounds,
+                                 kInfinity, {kInfinity, false});
     if (!is_cut) {
         return solid;
     }

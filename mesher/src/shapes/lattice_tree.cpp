@@ -19,6 +19,9 @@ namespace {
 constexpr std::uint32_t kTask = 256;  // cells or points
 constexpr double kRounding = 1e-9;
 
+// Of the spacing: more than rounding of bounds and values, less than anything that shows.
+constexpr double kSlack = 1e-6;
+
 // Points asked before that may tell of one on which side it is.
 constexpr std::size_t kRemembered = 32;
 
@@ -221,6 +224,22 @@ void LatticeTree::sample(const Solid& solid) {
             formatted("the expression is not a number at (%g, %g, %g, %g); expected a function "
                       "that is one everywhere in and around its box",
                       p[0], p[1], p[2], p[3]));
+    }
+    // What is beyond the bounds would be cut off where the cells end.
+    const double slack = kSlack * lattice_.spacing;
+    const auto is_beyond = [&](const Eigen::Vector4d& p) {
+        return (p - solid.bounds().low).minCoeff() < -slack
+               || (solid.bounds().high - p).minCoeff() < -slack;
+    };
+    for (std::uint32_t point = 0; point < point_count(); ++point) {
+        if (values_[point] < -slack && is_beyond(place(point))) {
+            const Eigen::Vector4d p = place(point);
+            throw Error(
+                formatted("the shape reaches beyond its bounds, at (%g, %g, %g, %g): images that "
+                          "are near their levels far away are blended there; expected less of "
+                          "\"smooth\"",
+                          p[0], p[1], p[2], p[3]));
+        }
     }
 }
 

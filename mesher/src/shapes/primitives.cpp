@@ -21,6 +21,8 @@ namespace pent::mesher {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr Reach kRound{1, true};  // of distances
+constexpr Reach kStraight{1, false};
 
 void check_length(const char* name, double value) {
     if (!(value > 0) || !std::isfinite(value)) {
@@ -48,7 +50,7 @@ Solid round_solid(const Eigen::Vector4d& axes, double radius) {
             box.high[axis] = kInfinity;
         }
     }
-    return solid_of(RoundField{axes, radius}, box, 2 * radius);
+    return solid_of(RoundField{axes, radius}, box, 2 * radius, kRound);
 }
 
 HalfSpacesField field_of(std::vector<HalfSpace> pieces) {
@@ -65,7 +67,7 @@ Solid slabs(const Eigen::Vector4d& size) {
             }
         }
     }
-    return solid_of(field_of(std::move(sides)), box_around(size / 2), size.minCoeff());
+    return solid_of(field_of(std::move(sides)), box_around(size / 2), size.minCoeff(), kStraight);
 }
 
 }  // namespace
@@ -86,7 +88,7 @@ Solid capsule_solid(double radius, double length) {
     check_length("length", length);
     Eigen::Vector4d half = Eigen::Vector4d::Constant(radius);
     half[3] += length / 2;
-    return solid_of(CapsuleField{radius, length / 2}, box_around(half), 2 * radius);
+    return solid_of(CapsuleField{radius, length / 2}, box_around(half), 2 * radius, kRound);
 }
 
 Solid spherinder_solid(double radius, double length) {
@@ -115,7 +117,7 @@ Solid spheritorus_solid(double ring_radius, double tube_radius) {
     check_below("tube_radius", tube_radius, "ring_radius", ring_radius);
     const double outer = ring_radius + tube_radius;
     return solid_of(RingField{2, ring_radius, tube_radius},
-                    box_around({outer, outer, tube_radius, tube_radius}), 2 * tube_radius);
+                    box_around({outer, outer, tube_radius, tube_radius}), 2 * tube_radius, kRound);
 }
 
 Solid torisphere_solid(double ring_radius, double tube_radius) {
@@ -123,7 +125,7 @@ Solid torisphere_solid(double ring_radius, double tube_radius) {
     check_below("tube_radius", tube_radius, "ring_radius", ring_radius);
     const double outer = ring_radius + tube_radius;
     return solid_of(RingField{3, ring_radius, tube_radius},
-                    box_around({outer, outer, outer, tube_radius}), 2 * tube_radius);
+                    box_around({outer, outer, outer, tube_radius}), 2 * tube_radius, kRound);
 }
 
 Solid tiger_solid(const Eigen::Vector2d& ring_radii, double tube_radius) {
@@ -131,7 +133,7 @@ Solid tiger_solid(const Eigen::Vector2d& ring_radii, double tube_radius) {
     check_below("tube_radius", tube_radius, "the smaller of ring_radii", ring_radii.minCoeff());
     const Eigen::Vector2d outer = ring_radii.array() + tube_radius;
     return solid_of(TigerField{ring_radii, tube_radius},
-                    box_around({outer[0], outer[0], outer[1], outer[1]}), 2 * tube_radius);
+                    box_around({outer[0], outer[0], outer[1], outer[1]}), 2 * tube_radius, kRound);
 }
 
 Solid ditorus_solid(const Eigen::Vector2d& ring_radii, double tube_radius) {
@@ -142,7 +144,7 @@ Solid ditorus_solid(const Eigen::Vector2d& ring_radii, double tube_radius) {
     const double rise = ring_radii[1] + tube_radius;
     const double outer = ring_radii[0] + rise;
     return solid_of(DitorusField{ring_radii, tube_radius},
-                    box_around({outer, outer, rise, tube_radius}), 2 * tube_radius);
+                    box_around({outer, outer, rise, tube_radius}), 2 * tube_radius, kRound);
 }
 
 Solid clifford_torus_solid(double radius, double thickness) {
@@ -162,8 +164,9 @@ Solid polytope_solid(int cells, double radius) {
     for (const Eigen::Vector4d& normal : cell_normals(cells)) {
         pieces.push_back({normal, inradius});
     }
+    // With its cells further out it is a larger one.
     return solid_of(field_of(std::move(pieces)), box_around(Eigen::Vector4d::Constant(radius)),
-                    2 * inradius);
+                    2 * inradius, {radius / inradius, false});
 }
 
 Solid half_space_solid(const Eigen::Vector4d& normal, double offset) {
@@ -174,7 +177,7 @@ Solid half_space_solid(const Eigen::Vector4d& normal, double offset) {
         throw Error("offset is not finite; expected a number (m)");
     }
     return solid_of(field_of({{normal.normalized(), offset / normal.norm()}}),
-                    box_around(Eigen::Vector4d::Constant(kInfinity)), kInfinity);
+                    box_around(Eigen::Vector4d::Constant(kInfinity)), kInfinity, kStraight);
 }
 
 Solid expression_solid(const std::string& formula, const Box4& box) {
@@ -184,8 +187,9 @@ Solid expression_solid(const std::string& formula, const Box4& box) {
             "the box of an expression is empty or not finite; expected low below high on "
             "every axis (m)");
     }
-    const Solid formula_solid = solid_of(
-        ExpressionField(formula), box_around(Eigen::Vector4d::Constant(kInfinity)), kInfinity);
+    const Solid formula_solid =
+        solid_of(ExpressionField(formula), box_around(Eigen::Vector4d::Constant(kInfinity)),
+                 kInfinity, kStraight);
     const Solid sides =
         place(slabs(size), 1, Eigen::Matrix4d::Identity(), (box.low + box.high) / 2);
     return intersect(formula_solid, sides);

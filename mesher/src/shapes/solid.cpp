@@ -154,19 +154,60 @@ Data joined(const Data& a, const Data& b) {
     return data;
 }
 
+Box4 grown(const Box4& box, double by) {
+    return {box.low.array() - by, box.high.array() + by};
+}
+
+Box4 around(const Box4& a, const Box4& b) {
+    return {a.low.cwiseMin(b.low), a.high.cwiseMax(b.high)};
+}
+
+// Of a union. A blend adds what has one of the two below a quarter of `smooth`; as they differ by
+// less than `smooth` there, both are below the sum of these, which is of use where small values of
+// one may be anywhere. Where those of both may, it is for stuffing to find that they are.
+Box4 bounds_of_union(const Data& a, const Data& b, double smooth) {
+    const auto with_blend = [&](const Data& data, double level) {
+        const double factor = std::isinf(data.reach.factor) ? 1 : data.reach.factor;
+        return grown(data.bounds, factor * level);
+    };
+    const bool is_anywhere = std::isinf(a.reach.factor);
+    if (smooth == 0 || is_anywhere == std::isinf(b.reach.factor)) {
+        return around(with_blend(a, smooth / 4), with_blend(b, smooth / 4));
+    }
+    return around(with_blend(a, is_anywhere ? 0 : 1.25 * smooth),
+                  with_blend(b, is_anywhere ? 1.25 * smooth : 0));
+}
+
+// As the one that has each of the sides reaches beyond it.
+Reach reach_of_intersection(const Data& a, const Data& b) {
+    const double least = std::min(a.reach.factor, b.reach.factor);
+    Reach reach{0, false};
+    for (int axis = 0; axis < 4; ++axis) {
+        const auto consider = [&](double inset_a, double inset_b) {
+            const double factor = inset_a > inset_b   ? a.reach.factor
+                                  : inset_a < inset_b ? b.reach.factor
+                                                      : least;
+            reach.factor = std::max(reach.factor, factor);
+        };
+        consider(a.bounds.low[axis], b.bounds.low[axis]);
+        consider(-a.bounds.high[axis], -b.bounds.high[axis]);
+    }
+    return reach;
+}
+
 Solid combine(const Solid& a, const Solid& b, Op op, double smooth) {
     Data data = joined(a.data(), b.data());
     data.nodes.push_back({op, smooth, a.data().root, data.root, data.pieces});
     ++data.pieces;
     data.root = static_cast<int>(data.nodes.size()) - 1;
-    const Box4& first = a.bounds();
-    const Box4& second = b.bounds();
     if (op == Op::Min) {
-        const double grown = smooth / 4;
-        data.bounds = {first.low.cwiseMin(second.low).array() - grown,
-                       first.high.cwiseMax(second.high).array() + grown};
+        data.bounds = bounds_of_union(a.data(), b.data(), smooth);
+        data.reach = {std::max(a.data().reach.factor, b.data().reach.factor),
+                      a.data().reach.is_round && b.data().reach.is_round};
     } else {
-        data.bounds = {first.low.cwiseMax(second.low), first.high.cwiseMin(second.high)};
+        data.bounds = {a.bounds().low.cwiseMax(b.bounds().low),
+                       a.bounds().high.cwiseMin(b.bounds().high)};
+        data.reach = reach_of_intersection(a.data(), b.data());
     }
     return Solid(std::make_shared<const Data>(std::move(data)));
 }
@@ -180,6 +221,7 @@ Solid outside_of(const Solid& solid) {
         node.op = node.op == Op::Min ? Op::Max : Op::Min;
     }
     data.bounds = {Eigen::Vector4d::Constant(-kInfinity), Eigen::Vector4d::Constant(kInfinity)};
+    data.reach = {};
     return Solid(std::make_shared<const Data>(std::move(data)));
 }
 
@@ -208,13 +250,14 @@ Box4 placed_box(const Box4& box,
 
 }  // namespace
 
-Solid solid_of(Field field, const Box4& bounds, double smallest_width) {
+Solid solid_of(Field field, const Box4& bounds, double smallest_width, const Reach& reach) {
     Data data;
     data.pieces = piece_count(field);
     data.leaves.push_back({.field = std::move(field)});
     data.root = ~0;
     data.bounds = bounds;
     data.smallest_width = smallest_width;
+    data.reach = reach;
     return Solid(std::make_shared<const Data>(std::move(data)));
 }
 
@@ -381,6 +424,9 @@ Solid place(const Solid& solid,
         node.smooth *= scale;
     }
     data.bounds = placed_box(data.bounds, scale * rotation, translation);
+    if (!data.reach.is_round) {
+        data.reach.factor *= rotation.cwiseAbs().rowwise().sum().maxCoeff();
+    }
     data.smallest_width *= scale;
     return Solid(std::make_shared<const Data>(std::move(data)));
 }

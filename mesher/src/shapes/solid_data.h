@@ -8,6 +8,14 @@
 
 namespace pent::mesher {
 
+/// How far beyond its bounds a solid has values below a level above 0, which a blend may make part
+/// of it: within the bounds grown by `factor` times the level.
+struct Reach {
+    double factor = 1;  ///< Infinite where small values may be anywhere.
+    bool is_round =
+        false;  ///< So after any rotation, as a distance is; else corners reach further.
+};
+
 /// A tree of minima and maxima over fields in places of their own.
 struct Solid::Data {
     struct Leaf {
@@ -40,6 +48,7 @@ struct Solid::Data {
     int root = 0;
     int pieces = 0;
     Box4 bounds;
+    Reach reach;
     double smallest_width = 0;
 };
 
@@ -47,6 +56,10 @@ struct Solid::Data {
 ///
 /// @param bounds          Of what is inside, infinite where it has none.
 /// @param smallest_width  See Solid::smallest_width().
-[[nodiscard]] Solid solid_of(Field field, const Box4& bounds, double smallest_width);
+/// @param reach           Around these bounds.
+[[nodiscard]] Solid solid_of(Field field,
+                             const Box4& bounds,
+                             double smallest_width,
+                             const Reach& reach);
 
 }  // namespace pent::mesher

@@ -6,6 +6,7 @@
 #include "run_frames.h"
 
 #include <pent/error.h>
+#include <pent/facets.h>
 #include <pent/formatted.h>
 #include <pent/input_path.h>
 #include <pent/mesher/moving_mesh.h>
@@ -19,6 +20,7 @@ namespace pent::mesher {
 namespace {
 
 namespace fs = std::filesystem;
+using Triangle = std::array<std::uint32_t, 3>;
 
 VtkGrid read_grid(const fs::path& path) {
     require_file(path);
@@ -150,26 +152,54 @@ public:
     }
 
 private:
+    static Triangle sorted(Triangle corners) {
+        std::sort(corners.begin(), corners.end());
+        return corners;
+    }
+
+    // In the order of their sorted corners.
+    [[nodiscard]] std::vector<Triangle> boundary_triangles() const {
+        std::vector<Triangle> triangles;
+        const FacetMatch<3> match = match_facets<3>(mesh_.base.cells, mesh_.base.vertex_count());
+        for (const auto& facet : match.boundary.colwise()) {
+            triangles.push_back(sorted({facet[0], facet[1], facet[2]}));
+        }
+        std::sort(triangles.begin(), triangles.end());
+        return triangles;
+    }
+
     void add_triangles(const VtkGrid& grid, const VtkArray& regions) {
         std::vector<std::int64_t> vertex_of(grid.soup.points.size(), -1);
         for (std::size_t vertex = 0; vertex < points_.size(); ++vertex) {
             vertex_of[static_cast<std::size_t>(points_[vertex])] =
                 static_cast<std::int64_t>(vertex);
         }
-        std::vector<std::array<std::uint32_t, 3>> kept;
+        const std::vector<Triangle> sides = boundary_triangles();
+        std::vector<Triangle> kept;
+        std::int64_t inner = 0;
         for (std::size_t t = 0; t < grid.triangles.size(); ++t) {
-            std::array<std::uint32_t, 3> corners{};
             const auto label = label_of(regions, grid.triangle_cells[t]);
-            bool is_of_mesh = label.has_value();
+            if (!label) {
+                continue;
+            }
+            Triangle corners{};
+            bool is_of_mesh = true;
             for (std::size_t k = 0; k < 3; ++k) {
                 const std::int64_t vertex = vertex_of[grid.triangles[t][k]];
                 is_of_mesh = is_of_mesh && vertex >= 0;
                 corners[k] = static_cast<std::uint32_t>(std::max<std::int64_t>(vertex, 0));
             }
-            if (is_of_mesh) {
+            if (is_of_mesh && std::binary_search(sides.begin(), sides.end(), sorted(corners))) {
                 kept.push_back(corners);
                 mesh_.triangle_labels.push_back(*label);
+            } else {
+                ++inner;
             }
+        }
+        if (inner > 0) {
+            dropped_.push_back(std::to_string(inner) + (inner == 1 ? " triangle" : " triangles")
+                               + " with a label that " + (inner == 1 ? "is" : "are")
+                               + " not on the boundary");
         }
         mesh_.triangles.resize(3, static_cast<Eigen::Index>(kept.size()));
         for (std::size_t t = 0; t < kept.size(); ++t) {

@@ -1,5 +1,6 @@
 #include "bisection.h"
 #include "boundary_labels.h"
+#include "moving_fields.h"
 #include "time_layers.h"
 
 #include <pent/error.h>
@@ -204,6 +205,21 @@ VertexField cell_field(const MovingField& field, const std::vector<TimeLayer>& l
     return result;
 }
 
+// Fibers run both ways: in each frame the one that is nearer to that of the frame before, so that
+// the mean of two frames is the direction of both where one of them is turned around.
+MovingField in_one_sense(MovingField fibers) {
+    for (std::size_t frame = 1; frame < fibers.values.size(); ++frame) {
+        const Eigen::MatrixXd& before = fibers.values[frame - 1];
+        for (Eigen::Index cell = 0; cell < before.cols(); ++cell) {
+            auto fiber = fibers.values[frame].col(cell);
+            if (fiber.dot(before.col(cell)) < 0) {
+                fiber *= -1;
+            }
+        }
+    }
+    return fibers;
+}
+
 void carry_fields(const MovingMesh& moving,
                   const std::vector<TimeLayer>& layers,
                   SpaceTimeBody& body) {
@@ -211,12 +227,11 @@ void carry_fields(const MovingMesh& moving,
         body.extras.vertex_fields.push_back(vertex_field(field, layers));
     }
     for (const MovingField& field : moving.cell_fields) {
-        VertexField carried = cell_field(field, layers);
-        const bool is_fiber = field.name == "fiber" || field.name == "fibers";
-        if (is_fiber && carried.values.rows() == 4 && body.mesh.fibers.cols() == 0) {
-            body.mesh.fibers = carried.values;
+        const bool is_fiber = is_fiber_name(field.name) && field.values.front().rows() == 3;
+        if (is_fiber && body.mesh.fibers.cols() == 0) {
+            body.mesh.fibers = cell_field(in_one_sense(field), layers).values;
         } else {
-            body.extras.cell_fields.push_back(std::move(carried));
+            body.extras.cell_fields.push_back(cell_field(field, layers));
         }
     }
 }

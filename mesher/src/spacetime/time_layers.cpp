@@ -238,10 +238,7 @@ VolumePolynomial volume_on_the_way(const Corners& from, const Corners& to) {
 }
 
 std::optional<double> first_inversion(const VolumePolynomial& volume) {
-    if (const auto found = inversion_within(volume, 0, 0)) {
-        return found;
-    }
-    return volume[3] <= 0 ? std::optional(1.0) : std::nullopt;
+    return inversion_within(volume, 0, 0);
 }
 
 Positions<3> positions_in(const MovingMesh& moving, const TimeLayer& layer) {
