@@ -83,7 +83,10 @@ void check_fields(const std::vector<VertexField>& fields,
                         + std::to_string(field.values.cols()) + " values, expected 1 or "
                         + std::to_string(dimension) + " x " + std::to_string(count));
         }
-        for (Eigen::Index i = 0; i < count; ++i) {
+    }
+    // Row by row, so that slabs of them, in order, find the same first fault.
+    for (Eigen::Index i = 0; i < count; ++i) {
+        for (const VertexField& field : fields) {
             if (!field.values.col(i).allFinite()) {
                 throw Error(path.string() + ": " + std::string(of) + " "
                             + std::to_string(first + static_cast<std::uint64_t>(i)) + ": "

@@ -1,7 +1,6 @@
-#include "body.h"
+#include "extras_columns.h"
 #include "extrusion_file.h"
 #include "input_file.h"
-#include "mesh_columns.h"
 
 #include <pent/cell_parents.h>
 #include <pent/error.h>
@@ -17,77 +16,9 @@ namespace pent {
 namespace {
 
 constexpr std::size_t kLongestHeader = std::size_t{1} << 20;
-constexpr const char* kTag = "bisection_tag";
-constexpr const char* kBaseLabel = "base_label";
-constexpr const char* kBoundary = "boundary";
-const std::vector<std::string_view> kCellVectors = {"fiber_"};
-
-void append_fields(const std::vector<VertexField>& fields, std::vector<Column>& columns) {
-    for (const VertexField& field : fields) {
-        const std::vector<Column> more = field_columns(field);
-        columns.insert(columns.end(), more.begin(), more.end());
-    }
-}
-
 template <int Dim>
-std::vector<Column> vertex_columns(const SimplexMesh<Dim>& mesh, const MeshExtras<Dim>& extras) {
-    std::vector<Column> columns = vertex_columns(mesh);
-    append_fields(extras.vertex_fields, columns);
-    return columns;
-}
-
-template <int Dim>
-std::vector<Column> cell_columns(const SimplexMesh<Dim>& mesh, const MeshExtras<Dim>& extras) {
-    std::vector<Column> columns = cell_columns(mesh);
-    if (!extras.bisection_tags.empty()) {
-        columns.push_back(array_column(kTag, PlyType::Uchar, extras.bisection_tags));
-    }
-    append_fields(extras.cell_fields, columns);
-    return columns;
-}
-
-template <int Dim>
-std::vector<Column> boundary_columns(const MeshExtras<Dim>& extras) {
-    std::vector<Column> columns;
-    for (int k = 0; k < Dim; ++k) {
-        columns.push_back(row_column("v" + std::to_string(k), PlyType::Uint, extras.boundary, k));
-    }
-    columns.push_back(array_column("label", PlyType::Ushort, extras.labels));
-    if (!extras.base_labels.empty()) {
-        columns.push_back(array_column(kBaseLabel, PlyType::Ushort, extras.base_labels));
-    }
-    return columns;
-}
-
-// Counts, indices and numbers of what is beside the mesh.
-template <int Dim>
-void check_extras(const SimplexMesh<Dim>& mesh,
-                  const MeshExtras<Dim>& extras,
-                  const std::filesystem::path& path) {
-    check_fields(extras.vertex_fields, Dim, mesh.vertex_count(), "vertex", path);
-    check_fields(extras.cell_fields, Dim, mesh.cell_count(), cell_name(Dim), path);
-    const auto require = [&](std::size_t found, Eigen::Index expected, const std::string& what) {
-        if (std::cmp_not_equal(found, expected)) {
-            throw Error(path.string() + ": " + std::to_string(found) + " " + what + ", expected "
-                        + std::to_string(expected));
-        }
-    };
-    require(extras.labels.size(), extras.boundary.cols(), "labels of the boundary");
-    if (!extras.base_labels.empty()) {
-        require(extras.base_labels.size(), extras.boundary.cols(), "base labels of the boundary");
-    }
-    if (!extras.bisection_tags.empty()) {
-        require(extras.bisection_tags.size(), mesh.cell_count(), "bisection tags");
-    }
-    for (Eigen::Index facet = 0; facet < extras.boundary.cols(); ++facet) {
-        for (int k = 0; k < Dim; ++k) {
-            if (std::cmp_greater_equal(extras.boundary(k, facet), mesh.vertex_count())) {
-                throw Error(path.string() + ": boundary " + std::to_string(facet) + ": vertex "
-                            + std::to_string(extras.boundary(k, facet)) + " of "
-                            + std::to_string(mesh.vertex_count()));
-            }
-        }
-    }
+MeshSlab whole_slab(const SimplexMesh<Dim>& mesh) {
+    return {.last_vertex = mesh.vertex_count(), .last_cell = mesh.cell_count()};
 }
 
 // Names of quantities, which the header of a file has.
@@ -95,44 +26,6 @@ template <int Dim>
 void check_names(const MeshExtras<Dim>& extras, const std::filesystem::path& path) {
     check_names(extras.vertex_fields, Dim, reserved_vertex_names(Dim), "vertex", path);
     check_names(extras.cell_fields, Dim, reserved_cell_names(Dim), cell_name(Dim), path);
-}
-
-// The labeled facets of a file, if it has an element with what they need.
-const PlyElement* boundary_of(const Header& header) {
-    if (header.elements.size() < 3 || header.elements[2].name != kBoundary) {
-        return nullptr;
-    }
-    const std::vector<PlyProperty>& properties = header.elements[2].properties;
-    const bool has_lists =
-        std::any_of(properties.begin(), properties.end(),
-                    [](const PlyProperty& p) { return p.count_type.has_value(); });
-    return has_lists ? nullptr : &header.elements[2];
-}
-
-template <int Dim>
-MeshExtras<Dim> sized_extras(const Header& header, const std::filesystem::path& path) {
-    MeshExtras<Dim> extras;
-    extras.vertex_fields = fields_of(header.elements[0], Dim, kVertexVectors);
-    extras.cell_fields = fields_of(header.elements[1], Dim, kCellVectors);
-    if (has_property(header.elements[1], kTag, PlyType::Uchar, path)) {
-        extras.bisection_tags.resize(header.elements[1].count);
-    }
-    const PlyElement* boundary = boundary_of(header);
-    if (boundary == nullptr) {
-        return extras;
-    }
-    for (const Column& column : boundary_columns(extras)) {
-        if (!has_property(*boundary, column.name, column.type, path)) {
-            throw Error(path.string() + ": header: element boundary has no " + column.name
-                        + ", expected v0 to v" + std::to_string(Dim - 1) + " and label");
-        }
-    }
-    extras.boundary.resize(Dim, static_cast<Eigen::Index>(boundary->count));
-    extras.labels.resize(boundary->count);
-    if (has_property(*boundary, kBaseLabel, PlyType::Ushort, path)) {
-        extras.base_labels.resize(boundary->count);
-    }
-    return extras;
 }
 
 }  // namespace
@@ -148,7 +41,7 @@ std::set<std::string> reserved_cell_names(int dimension) {
     for (int corner = 0; corner <= dimension; ++corner) {
         names.insert("v" + std::to_string(corner));
     }
-    names.insert({"region", kParent, kTag});
+    names.insert({"region", kParent, kBisectionTag});
     return names;
 }
 
@@ -170,7 +63,7 @@ template <int Dim>
 void validate_extras(const SimplexMesh<Dim>& mesh,
                      const MeshExtras<Dim>& extras,
                      std::string_view name) {
-    check_extras(mesh, extras, name);
+    check_extras(extras, whole_slab(mesh), mesh.vertex_count(), name);
     check_names(extras, name);
 }
 
@@ -232,7 +125,7 @@ MeshFile<Dim> read_mesh(const std::filesystem::path& path) {
     }
     reader.finish();
     validate(mesh, path.string());
-    check_extras(mesh, extras, path);
+    check_extras(extras, whole_slab(mesh), mesh.vertex_count(), path);
     return {std::move(mesh), header.info, std::move(extras)};
 }
 

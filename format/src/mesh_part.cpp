@@ -1,5 +1,7 @@
 #include "pent/mesh_part.h"
 
+#include "element_rows.h"
+#include "extras_columns.h"
 #include "extrusion_file.h"
 #include "input_file.h"
 #include "mesh_columns.h"
@@ -19,14 +21,6 @@
 namespace pent {
 
 namespace {
-
-std::size_t row_bytes(const PlyElement& element) {
-    std::size_t bytes = 0;
-    for (const PlyProperty& property : element.properties) {
-        bytes += size_of(property.type);
-    }
-    return bytes;
-}
 
 // Whether any writer has something of the kind.
 bool has_any(const SlabWriters* writers, std::size_t own) {
@@ -48,16 +42,35 @@ SimplexMesh<Dim> pattern_of(const SimplexMesh<Dim>& slab, const SlabWriters* wri
     return pattern;
 }
 
+// The same of what is beside it. Quantities are named on all.
 template <int Dim>
-std::string encode(const SimplexMesh<Dim>& slab, Encoding encoding) {
+MeshExtras<Dim> pattern_of(const MeshExtras<Dim>& slab, const SlabWriters* writers) {
+    MeshExtras<Dim> pattern;
+    for (const VertexField& field : slab.vertex_fields) {
+        pattern.vertex_fields.push_back({field.name, Eigen::MatrixXd(field.values.rows(), 0)});
+    }
+    for (const VertexField& field : slab.cell_fields) {
+        pattern.cell_fields.push_back({field.name, Eigen::MatrixXd(field.values.rows(), 0)});
+    }
+    pattern.bisection_tags.resize(has_any(writers, slab.bisection_tags.size()) ? 1 : 0);
+    pattern.base_labels.resize(has_any(writers, slab.base_labels.size()) ? 1 : 0);
+    return pattern;
+}
+
+template <int Dim>
+std::string encode(const SimplexMesh<Dim>& slab, const MeshExtras<Dim>& extras, Encoding encoding) {
     std::string body;
     if (slab.vertex_count() > 0) {
-        encode_rows(body, encoding, vertex_columns(slab),
+        encode_rows(body, encoding, vertex_columns(slab, extras),
                     static_cast<std::uint64_t>(slab.vertex_count()));
     }
     if (slab.cell_count() > 0) {
-        encode_rows(body, encoding, cell_columns(slab),
+        encode_rows(body, encoding, cell_columns(slab, extras),
                     static_cast<std::uint64_t>(slab.cell_count()));
+    }
+    if (extras.boundary.cols() > 0) {
+        encode_rows(body, encoding, boundary_columns(extras),
+                    static_cast<std::uint64_t>(extras.boundary.cols()));
     }
     return body;
 }
@@ -66,26 +79,6 @@ template <typename Value>
 std::vector<Value> cut(const std::vector<Value>& values, Eigen::Index first, Eigen::Index last) {
     return values.empty() ? values
                           : std::vector<Value>(values.begin() + first, values.begin() + last);
-}
-
-// Where the rows of one element are in a file.
-struct RowBytes {
-    std::uint64_t first = 0;
-    std::uint64_t last = 0;      // behind them
-    std::uint64_t in_front = 0;  // rows of the element
-};
-
-// They alone, read as if they were a file.
-void read_rows(const std::filesystem::path& path,
-               Encoding encoding,
-               const RowBytes& bytes,
-               const PlyElement& rows,
-               const std::vector<Column>& columns) {
-    const InputFile file = read_input(path, bytes.last - bytes.first, bytes.first);
-    Header header;
-    header.info.encoding = encoding;
-    header.elements = {rows};
-    BodyReader(header, file.view(), path).read(columns, bytes.in_front);
 }
 
 // Lines of text: where every so many of them begin, since each is as long as its numbers.
@@ -114,11 +107,6 @@ std::pair<std::uint64_t, std::uint64_t> for_each_line(const std::filesystem::pat
         }
         at += piece.bytes;
     }
-}
-
-Header header_of(const std::filesystem::path& path) {
-    constexpr std::size_t kLongestHeader = std::size_t{1} << 20;
-    return parse_header(read_input(path, kLongestHeader).view(), path);
 }
 
 }  // namespace
@@ -151,8 +139,10 @@ SimplexMesh<Dim> rows_of(const SimplexMesh<Dim>& mesh, const MeshSlab& slab) {
 template <int Dim>
 std::uint32_t write_mesh_slab(const std::filesystem::path& path,
                               const SimplexMesh<Dim>& slab,
+                              const MeshExtras<Dim>& extras,
                               const WriteOptions& options) {
     const SimplexMesh<Dim> pattern = pattern_of(slab, options.writers);
+    const MeshExtras<Dim> beside = pattern_of(extras, options.writers);
     const auto count = [&](Eigen::Index own) {
         return place_slab(options.writers, static_cast<std::uint64_t>(own)).all;
     };
@@ -161,14 +151,18 @@ std::uint32_t write_mesh_slab(const std::filesystem::path& path,
     header.info.encoding = options.encoding;
     header.info.created_by = options.created_by;
     header.elements = {
-        make_element("vertex", count(slab.vertex_count()), vertex_columns(pattern)),
-        make_element(cell_name(Dim), count(slab.cell_count()), cell_columns(pattern))};
-    return write_file(path, std::move(header), encode(slab, options.encoding), options.writers);
+        make_element("vertex", count(slab.vertex_count()), vertex_columns(pattern, beside)),
+        make_element(cell_name(Dim), count(slab.cell_count()), cell_columns(pattern, beside))};
+    if (const std::uint64_t facets = count(extras.boundary.cols()); facets > 0) {
+        header.elements.push_back(make_element(kBoundary, facets, boundary_columns(beside)));
+    }
+    return write_file(path, std::move(header), encode(slab, extras, options.encoding),
+                      options.writers);
 }
 
 template <int Dim>
 std::uint32_t checksum_of_mesh(const SimplexMesh<Dim>& slab, const SlabWriters* writers) {
-    return crc32c_of_slabs(writers, encode(slab, Encoding::Binary));
+    return crc32c_of_slabs(writers, encode<Dim>(slab, {}, Encoding::Binary));
 }
 
 void check_checksum(const std::filesystem::path& path, const SlabWriters* readers) {
@@ -179,7 +173,7 @@ void check_checksum(const std::filesystem::path& path, const SlabWriters* reader
         readers != nullptr ? readers->agree(work) : work();
     };
     agree([&] {
-        header = header_of(path);
+        header = read_header(path);
         bytes = std::filesystem::file_size(path) - header.body;
     });
     if (!header.has_checksum) {
@@ -282,7 +276,7 @@ MeshSource<Dim>::MeshSource(const std::filesystem::path& path, int parts)
     : content_(std::make_unique<Content>()) {
     constexpr std::uint64_t kMaxRows = 0xffffffff;
     content_->path = path;
-    content_->header = header_of(path);
+    content_->header = read_header(path);
     const Header& header = content_->header;
     content_->info = header.info;
     if (pent::is_extrusion(header)) {
@@ -383,11 +377,12 @@ MeshPart<Dim> MeshSource<Dim>::cells_over(const std::vector<bool>& is_wanted) co
     return part;
 }
 
-#define PENT_INSTANTIATE(Dim)                                                                  \
-    template SimplexMesh<Dim> rows_of<Dim>(const SimplexMesh<Dim>&, const MeshSlab&);          \
-    template std::uint32_t write_mesh_slab<Dim>(const std::filesystem::path&,                  \
-                                                const SimplexMesh<Dim>&, const WriteOptions&); \
-    template std::uint32_t checksum_of_mesh<Dim>(const SimplexMesh<Dim>&, const SlabWriters*); \
+#define PENT_INSTANTIATE(Dim)                                                                    \
+    template SimplexMesh<Dim> rows_of<Dim>(const SimplexMesh<Dim>&, const MeshSlab&);            \
+    template std::uint32_t write_mesh_slab<Dim>(const std::filesystem::path&,                    \
+                                                const SimplexMesh<Dim>&, const MeshExtras<Dim>&, \
+                                                const WriteOptions&);                            \
+    template std::uint32_t checksum_of_mesh<Dim>(const SimplexMesh<Dim>&, const SlabWriters*);   \
     template class MeshSource<Dim>;
 PENT_INSTANTIATE(3)
 PENT_INSTANTIATE(4)

@@ -1,4 +1,5 @@
 #include "mpi_scenes.h"
+#include "support/extras.h"
 #include "support/messages.h"
 
 #include <cmath>
@@ -6,12 +7,19 @@
 namespace pent {
 namespace {
 
+using test::all_extras;
 using test::expect_contains;
+using test::expect_same;
 using test::kuhn_box;
 using test::Outcome;
 using test::text_of;
 
 using MpiRuns = test::MpiScenes;
+
+// Of a file behind its header, in which programs have their names.
+std::string data_of(const std::string& bytes) {
+    return bytes.substr(bytes.find("end_header"));
+}
 
 TEST_F(MpiRuns, GoWherePentSimGoes) {
     ASSERT_EQ(simulate(0, "bar", "alone").exit_code, 0);
@@ -181,9 +189,6 @@ TEST_F(MpiRuns, InWhichNoRankHasAWholeMeshAreThoseOfOne) {
         write(mesh, twins(mesh));
     }
     ASSERT_EQ(simulate(0, "whole", "alone").exit_code, 0);
-    const auto data_of = [](const std::string& bytes) {
-        return bytes.substr(bytes.find("end_header"));
-    };
     for (const int ranks : {2, 3}) {
         const std::string number = std::to_string(ranks);
         for (const std::string mesh : {"base", "whole", "text"}) {
@@ -198,6 +203,40 @@ TEST_F(MpiRuns, InWhichNoRankHasAWholeMeshAreThoseOfOne) {
         }
     }
     EXPECT_GT(report("base3").steps.back().contact.point_facet, 0);
+}
+
+// Quantities, labels and tags of the mesh file, of a body that is turned, too.
+TEST_F(MpiRuns, HaveWhatIsBesideTheMeshAsPentSimHasIt) {
+    write_extrusion_and_mesh();
+    const SimplexMesh<4> mesh = read_mesh<4>(path("whole.pent")).mesh;
+    std::string scene = twins("rich");
+    scene.replace(scene.find("frames = 4"), 10, "frames = 1");
+    scene.replace(scene.find("translate = [0.05, 0.415"), 24,
+                  "rotate = [{ plane = \"zw\", degrees = 40 }], translate = [0.05, 2");
+    write("rich", scene);
+    for (const Encoding encoding : {Encoding::Binary, Encoding::Ascii}) {
+        static_cast<void>(
+            write_mesh(path("rich.pent"), mesh, {.encoding = encoding}, all_extras(mesh)));
+        for (const int ranks : {0, 1, 2, 3}) {
+            const std::string run = "rich" + std::to_string(ranks);
+            const Outcome outcome = simulate(ranks, "rich", run, "--force");
+            ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+            for (const std::string file : {"/meshes/a.pent", "/meshes/b.pent"}) {
+                EXPECT_EQ(data_of(text_of(path(run + file))),
+                          data_of(text_of(path("rich0" + file))));
+            }
+        }
+        expect_same(read_mesh<4>(path("rich3/meshes/a.pent")).extras, all_extras(mesh));
+        EXPECT_NE(read_mesh<4>(path("rich3/meshes/b.pent")).extras.cell_fields,
+                  all_extras(mesh).cell_fields);
+        // By others, with other quantities: none of them are of the run.
+        static_cast<void>(
+            write_mesh(path("rich.pent"), mesh, {.encoding = encoding}, all_extras(mesh, 2)));
+        for (const int ranks : {0, 2}) {
+            const Outcome resumed = simulate(ranks, "rich", "rich3", "--resume");
+            EXPECT_EQ(resumed.exit_code, 0) << resumed.err;
+        }
+    }
 }
 
 // Cells around edges reach a cell farther, in a file and over the base of layers.

@@ -176,7 +176,7 @@ TEST(MeshSlabs, AreTheFileThatOneWriterMakes) {
                         mesh,
                         slab_of(mesh.vertex_count(), mesh.cell_count(), writers.place(), count));
                     EXPECT_EQ(write_mesh_slab(
-                                  folder / "all.pent", rows,
+                                  folder / "all.pent", rows, {},
                                   {.encoding = encoding, .created_by = "t", .writers = &writers}),
                               crc);
                     if (encoding == Encoding::Binary) {

@@ -3,11 +3,13 @@
 #include "simulator/cut_meshes.h"
 #include "simulator/scenes.h"
 #include "simulator/thread_ranks.h"
+#include "support/extras.h"
 #include "support/fork.h"
 #include "support/messages.h"
 #include "support/misfits.h"
 #include "support/temp_folder.h"
 
+#include <pent/mesh_extras.h>
 #include <pent/mesh_part.h>
 #include <pent/pent_file.h>
 #include <pent/runs/explain.h>
@@ -232,7 +234,7 @@ TEST(RunMeshes, ThatAreNoneAreRefusedByRanksAsByOne) {
     for (const Eigen::Index cell :
          {mesh.cell_count() - 1, mesh.cell_count() / 2, Eigen::Index{1}}) {
         std::swap(mesh.cells(0, cell), mesh.cells(1, cell));
-        static_cast<void>(write_mesh_slab(folder / "fork.pent", mesh, {}));
+        static_cast<void>(write_mesh_slab(folder / "fork.pent", mesh, {}, {}));
         expect_contains(outcome_of_all<4>(scene),
                         {"pentachoron " + std::to_string(cell) + ": inverted"});
     }
@@ -247,7 +249,7 @@ TEST(RunMeshes, OfFilesWithFaultsAreRefusedByRanksAsByOne) {
     SimplexMesh<4> endless = mesh;
     endless.positions(2, 7) = std::numeric_limits<double>::infinity();
     for (const Encoding encoding : {Encoding::Binary, Encoding::Ascii}) {
-        static_cast<void>(write_mesh_slab(file, endless, {.encoding = encoding}));
+        static_cast<void>(write_mesh_slab(file, endless, {}, {.encoding = encoding}));
         expect_contains(outcome_of_all<4>(scene), {"fork.pent: vertex 7: z is inf"});
         static_cast<void>(write_mesh(file, mesh, {.encoding = encoding}));
         std::string bytes = text_of(file);
@@ -262,6 +264,44 @@ TEST(RunMeshes, OfFilesWithFaultsAreRefusedByRanksAsByOne) {
     text[text.size() - 40] = 'x';
     std::ofstream(file, std::ios::binary) << text;
     expect_contains(outcome_of_all<4>(scene), {"fork.pent: pentachoron "});
+}
+
+// Quantities and labels beside the mesh, two wrong at a time, behind a sound mesh and one that is
+// none: what pent-check says of the file, though a simulation needs none of them.
+TEST(RunMeshes, WithFaultsBesideThemAreRefusedByRanksAsByOne) {
+    const TempFolder folder;
+    const Scene scene = muscle(folder);
+    const SimplexMesh<4> mesh = pent::test::fork<4>();
+    const MeshExtras<4> sound = pent::test::all_extras(mesh);
+    MeshExtras<4> of_vertices = sound;
+    of_vertices.vertex_fields[0].values(0, 9) = std::numeric_limits<double>::infinity();
+    of_vertices.vertex_fields[1].values(2, 8) = std::numeric_limits<double>::infinity();
+    MeshExtras<4> of_cells = sound;
+    of_cells.cell_fields[1].values(0, mesh.cell_count() - 1) =
+        std::numeric_limits<double>::infinity();
+    MeshExtras<4> of_facets = sound;
+    of_facets.boundary(1, 2) = 4000;
+    const std::vector<std::pair<MeshExtras<4>, std::string>> cases = {
+        {of_vertices, "vertex 8: current is not finite"},
+        {of_cells, "pentachoron " + std::to_string(mesh.cell_count() - 1) + ": age is not"},
+        {of_facets, "boundary 2: vertex 4000 of"}};
+    SimplexMesh<4> inverted = mesh;
+    std::swap(inverted.cells(0, 3), inverted.cells(1, 3));
+    const std::string file = folder / "fork.pent";
+    for (const Encoding encoding : {Encoding::Binary, Encoding::Ascii}) {
+        for (const auto& [extras, what] : cases) {
+            static_cast<void>(write_mesh_slab(file, mesh, extras, {.encoding = encoding}));
+            expect_contains(outcome_of_all<4>(scene), {"scene.toml:3:1: ", "fork.pent: ", what});
+            static_cast<void>(write_mesh_slab(file, inverted, extras, {.encoding = encoding}));
+            expect_contains(outcome_of_all<4>(scene), {"pentachoron 3: inverted"});
+        }
+        static_cast<void>(write_mesh(file, mesh, {.encoding = encoding}, sound));
+        std::string bytes = text_of(file);
+        bytes[bytes.size() - 2] = encoding == Encoding::Ascii ? 'x' : '\1';
+        std::ofstream(file, std::ios::binary) << bytes;
+        expect_contains(outcome_of_all<4>(scene),
+                        {encoding == Encoding::Ascii ? "base_label is " : "checksum"});
+    }
 }
 
 TEST(RunMeshes, OfAFrameAreRefusedByRanksAsByOne) {

@@ -53,11 +53,14 @@ template <int Dim>
 /// the writers. The file is the one that write_mesh() writes of the whole. What is written has been
 /// validated: it is not again.
 ///
-/// @param slab  As rows_of() has it.
-/// @return      The checksum in the header, of the whole.
+/// @param slab    As rows_of() has it.
+/// @param extras  What is beside these rows, as read_extras() has it, with the names of all
+///                quantities.
+/// @return        The checksum in the header, of the whole.
 template <int Dim>
 std::uint32_t write_mesh_slab(const std::filesystem::path& path,
                               const SimplexMesh<Dim>& slab,
+                              const MeshExtras<Dim>& extras,
                               const WriteOptions& options);
 
 /// That checksum, of which nothing is written.

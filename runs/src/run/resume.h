@@ -20,7 +20,8 @@ namespace pent::runs {
 /// Keys that it lacks have their defaults.
 void check_same_scene(const std::filesystem::path& scene_file, const Scene& scene);
 
-/// The mesh of the folder is this one, by its checksum, labels included. Gives that.
+/// The mesh of the folder is this one, regions, parents and fibers included; what a file has beside
+/// a mesh does not count. Gives the checksum of the file.
 ///
 /// @param slab   Of the mesh, as rows_of() has it, where several processes compare it together.
 /// @param ranks  These.

@@ -4,6 +4,7 @@
 #include "scene/scene_meshes.h"
 
 #include <pent/error.h>
+#include <pent/mesh_extras.h>
 #include <pent/simulator/placed_mesh.h>
 
 #include <algorithm>
@@ -26,6 +27,25 @@ void require_files(const Scene& scene) {
             throw Error((body.source.empty() ? "" : body.source + ": ") + body.mesh
                         + ": cannot be read: No such file or directory; it is the mesh of \""
                         + body.name + "\": put it there, or let `mesh` name it where it is");
+        }
+    }
+}
+
+// Vectors turn with the body, as fibers do. One by one: a sum must not hang on how many of them a
+// rank has.
+template <int Dim>
+void turn(std::vector<VertexField>& fields, const simulator::Placement& placement) {
+    if (placement.rotate.empty()) {
+        return;
+    }
+    SimplexMesh<Dim> axes;
+    axes.fibers = Eigen::Matrix<double, Dim, Dim>::Identity();
+    put_in_place(axes, placement);
+    const Eigen::Matrix<double, Dim, Dim> rotation = axes.fibers;
+    for (VertexField& field : fields) {
+        for (Eigen::Index i = 0; field.values.rows() == Dim && i < field.values.cols(); ++i) {
+            const Eigen::Matrix<double, Dim, 1> before = field.values.col(i);
+            field.values.col(i) = rotation * before;
         }
     }
 }
@@ -74,13 +94,22 @@ void RunMeshes<Dim>::show(const SceneParts<Dim>& parts,
     }
 }
 
-// The rows that this rank writes or compares.
+// Which rows this process writes or compares.
+template <int Dim>
+MeshSlab RunMeshes<Dim>::slab_of_rows(const SimplexMesh<Dim>& mesh, int body) const {
+    if (ranks_.count() == 0) {
+        return slab_of(mesh.vertex_count(), mesh.cell_count(), 0, 1);
+    }
+    const MeshSource<Dim>& source = sources_[static_cast<std::size_t>(body)];
+    return slab_of(mesh.vertex_count(), static_cast<Eigen::Index>(source.info().cells),
+                   ranks_.place(), ranks_.count());
+}
+
+// They, on a rank.
 template <int Dim>
 SimplexMesh<Dim> RunMeshes<Dim>::slab_of_mesh(const SimplexMesh<Dim>& mesh, int body) const {
-    const int count = ranks_.count();
     const auto index = static_cast<std::size_t>(body);
-    const auto cells = static_cast<Eigen::Index>(sources_[index].info().cells);
-    const MeshSlab slab = slab_of(mesh.vertex_count(), cells, ranks_.place(), count);
+    const MeshSlab slab = slab_of_rows(mesh, body);
     SimplexMesh<Dim> rows = sources_[index].cells(slab.first_cell, slab.last_cell);
     put_in_place(rows, scene_.bodies[index].place);  // fibers
     SimplexMesh<Dim> vertices =
@@ -97,13 +126,21 @@ std::uint32_t RunMeshes<Dim>::write(const std::filesystem::path& file,
                                     int body,
                                     const std::string& created_by) const {
     const SimplexMesh<Dim>& mesh = simulation.mesh(body);
-    const WriteOptions options = {.created_by = created_by, .writers = ranks_.writers()};
-    if (options.writers == nullptr) {
-        return write_mesh(file, mesh, options);
-    }
+    const Body& of_scene = scene_.bodies[static_cast<std::size_t>(body)];
     SimplexMesh<Dim> slab;
-    ranks_.agree([&] { slab = slab_of_mesh(mesh, body); });
-    return write_mesh_slab(file, slab, options);
+    MeshExtras<Dim> extras;
+    ranks_.agree([&] {
+        const MeshSlab rows = slab_of_rows(mesh, body);
+        if (ranks_.count() > 0) {
+            slab = slab_of_mesh(mesh, body);
+        }
+        extras = read_extras<Dim>(of_scene.mesh, rows);
+        turn<Dim>(extras.vertex_fields, of_scene.place);
+        turn<Dim>(extras.cell_fields, of_scene.place);
+        validate_extras(extras, rows, mesh.vertex_count(), file.string());
+    });
+    return write_mesh_slab(file, ranks_.count() > 0 ? slab : mesh, extras,
+                           {.created_by = created_by, .writers = ranks_.writers()});
 }
 
 template <int Dim>

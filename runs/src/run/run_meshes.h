@@ -44,7 +44,7 @@ public:
     /// What was found to be said of them.
     [[nodiscard]] const std::vector<std::string>& warnings() const { return warnings_; }
 
-    /// Writes a mesh, each rank a slab. Gives its checksum.
+    /// Writes a mesh with what its file has beside it, each rank a slab. Gives its checksum.
     [[nodiscard]] std::uint32_t write(const std::filesystem::path& file,
                                       const Simulation<Dim>& simulation,
                                       int body,
@@ -60,6 +60,7 @@ public:
 
 private:
     void show(const SceneParts<Dim>& parts, const simulator::Ranks* ranks, const Look& look) const;
+    [[nodiscard]] MeshSlab slab_of_rows(const SimplexMesh<Dim>& mesh, int body) const;
     [[nodiscard]] SimplexMesh<Dim> slab_of_mesh(const SimplexMesh<Dim>& mesh, int body) const;
 
     const Scene& scene_;

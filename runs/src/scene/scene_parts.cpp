@@ -4,6 +4,7 @@
 
 #include <pent/crc32c.h>
 #include <pent/error.h>
+#include <pent/mesh_extras.h>
 #include <pent/simulator/mesh_parts.h>
 #include <pent/simulator/placed_mesh.h>
 #include <pent/validate_parts.h>
@@ -363,6 +364,11 @@ private:
             source.is_extrusion() && scene_.solver.elements != ElementKind::Quadratic
                 ? extruded_part(source, wanted, needed, meshes_[i].columns, owners)
                 : read_part<Dim>(source, wanted, needed, ranks_);
+        // What is beside the mesh is for its copy in the folder alone, which reads it then.
+        const MeshSlab slab =
+            slab_of(meshes_[i].vertex_count(), part.cell_count, ranks_.place(), ranks_.count());
+        MeshExtras<Dim> extras;
+        ranks_.agree([&] { extras = read_extras<Dim>(body.mesh, slab); });
         if (is_text(source)) {
             check_sum_of(body, source);
         }
@@ -370,6 +376,7 @@ private:
         part.mesh.columns = std::move(meshes_[i].columns);
         part.mesh.layers = std::move(meshes_[i].layers);
         validate_parts<Dim>(part.mesh, body.mesh, part.numbers, ranks_);
+        ranks_.agree([&] { validate_extras(extras, slab, part.mesh.vertex_count(), body.mesh); });
         return part;
     }
 
