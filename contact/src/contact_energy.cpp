@@ -102,7 +102,7 @@ bool evaluate(const DistanceEnergy& energy,
               const PositionsView<Dim>& positions,
               Contact<Dim>& contact) {
     contact.energy = contact.share * energy.value(contact.distance);
-    contact.slope = contact.share * energy.slope(contact.distance);
+    contact.slope = contact.share * contact.gain * energy.slope(contact.distance);
     if (!contact.mollifier.is_on()) {
         return false;
     }
@@ -125,8 +125,9 @@ StencilVector<Dim> mollifier_gradient(const DistanceEnergy& energy,
 template <int Dim>
 Block<Dim> held_hessian(const DistanceEnergy& energy, const Contact<Dim>& contact, Filter filter) {
     const double d = contact.distance;
-    const double slope = contact.share * energy.slope(d);
-    const double curvature = contact.share * energy.curvature(d);
+    const double factor = contact.share * contact.gain * contact.gain;
+    const double slope = factor * energy.slope(d);
+    const double curvature = factor * energy.curvature(d);
     double sideways = d == 0 ? 0 : slope / d;
     if (filter != Filter::None) {
         const double most = std::abs(curvature);

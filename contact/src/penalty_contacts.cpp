@@ -3,6 +3,7 @@
 #include "near_pairs.h"
 #include "normals.h"
 #include "pair_contact.h"
+#include "valley.h"
 
 #include <pent/dimensions.h>
 
@@ -206,7 +207,8 @@ std::vector<Contact<Dim>> self_contacts(const Setting<Dim>& setting,
         });
 }
 
-// One contact for each vertex that is inside the second body, or near it.
+// One contact for each vertex that is inside the second body, or near it, shared among facets where
+// it lies in a valley.
 template <int Dim>
 std::vector<Contact<Dim>> solid_contacts(const Setting<Dim>& setting,
                                          int first,
@@ -237,10 +239,23 @@ std::vector<Contact<Dim>> solid_contacts(const Setting<Dim>& setting,
             } else {
                 return;
             }
-            if (const auto contact = solid_contact<Dim>(pair_setting, vertex, around.facets, facet,
-                                                        is_inside[i] != 0)) {
-                found.push_back(*contact);
+            const std::size_t first_found = found.size();
+            const auto add = [&](std::uint32_t other) {
+                if (const auto contact = solid_contact<Dim>(pair_setting, vertex, around.facets,
+                                                            other, is_inside[i] != 0)) {
+                    found.push_back(*contact);
+                }
+            };
+            add(facet);
+            if (is_inside[i] != 0 || found.size() == first_found) {
+                return;
             }
+            for (std::size_t k = begin[i]; k < begin[i + 1]; ++k) {
+                if (near[k].facet != facet) {
+                    add(near[k].facet);
+                }
+            }
+            share_contacts<Dim>(found, first_found, setting.distance(), setting.positions);
         });
 }
 

@@ -211,6 +211,59 @@ TYPED_TEST(CandidatesTest, HoldWhileVerticesStayNearTheirPaths) {
     this->expect_complete(candidates, away, away, away, this->kDistance);
 }
 
+// Each motion begins where the last search holds, and leads farther.
+TYPED_TEST(CandidatesTest, AreSearchedAnewForMotionsThatLeadFromWhatIsCovered) {
+    constexpr int kDim = TypeParam::value;
+    const Colliders<kDim> colliders(this->model_);
+    Candidates<kDim> candidates(colliders);
+    const Positions<kDim>& from = this->scene_.positions;
+    candidates.cover(from);
+    std::int64_t searches = 1;
+    for (const double way : {0.2, 0.4, 1.5}) {
+        const Positions<kDim> to = this->target(way);
+        candidates.cover(from, to);
+        EXPECT_EQ(candidates.work().searches, ++searches);
+        for (int k = 0; k <= 10; ++k) {
+            const Positions<kDim> x = from + 0.1 * k * (to - from);
+            this->expect_complete(candidates, x, x, x, this->kDistance);
+        }
+    }
+    EXPECT_GT(this->near_, 100U);
+}
+
+// A body of two cubes, so that the box around it has another body in it that is just beyond the
+// distance of contact, and comes within it before anything has to be searched anew.
+TYPED_TEST(CandidatesTest, HoldWhatComesNearByTheInflationAlone) {
+    constexpr int kDim = TypeParam::value;
+    const SimplexMesh<kDim> one = test::cube<kDim>(1);
+    const Eigen::Index count = one.vertex_count();
+    SimplexMesh<kDim> two = one;
+    two.positions.conservativeResize(kDim, 2 * count);
+    two.positions.rightCols(count) = one.positions;
+    two.positions.rightCols(count).row(0).array() += 3;
+    two.positions.rightCols(count).row(1).array() += 5;
+    two.cells.conservativeResize(kDim + 1, 2 * one.cell_count());
+    two.cells.rightCols(one.cell_count()) = one.cells.array() + static_cast<std::uint32_t>(count);
+    this->scene_ = {};
+    this->scene_.add(two, Vector<kDim>::Zero());
+    Vector<kDim> aside = Vector<kDim>::Constant(0.13);
+    aside[0] = 1 + this->kDistance + 1.3 * this->kInflation;
+    this->scene_.add(one, aside);
+    this->model_ = test::contact_scene<kDim>(this->scene_, this->options_);
+    const Colliders<kDim> colliders(this->model_);
+    Candidates<kDim> candidates(colliders);
+    candidates.cover(this->scene_.positions);
+    EXPECT_EQ(candidates.work().searches, 1);
+    Positions<kDim> x = this->scene_.positions;
+    // In the mean nothing moves: a shift of all would not count.
+    x.row(0).head(2 * count).array() += 0.475 * this->kInflation;
+    x.row(0).tail(count).array() -= 0.95 * this->kInflation;
+    candidates.cover(x);
+    EXPECT_EQ(candidates.work().searches, 1);
+    this->expect_complete(candidates, x, x, x, this->kDistance);
+    EXPECT_GT(this->near_, 0U);
+}
+
 TYPED_TEST(CandidatesTest, AreSearchedAnewForMotionsThatAreMuchShorterElsewhere) {
     constexpr int kDim = TypeParam::value;
     const Colliders<kDim> colliders(this->model_);

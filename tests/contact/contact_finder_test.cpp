@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <tuple>
 
 namespace pent::contact {
 namespace {
@@ -270,6 +271,34 @@ TYPED_TEST(ContactFinderTest, FinderFindsTheSameWhereItIsMovedTo) {
 
 // The share of a mixed pair changes where faces slide along each other, and with it the energy; as
 // it is held, no pair within two flat faces pushes along them, whichever way its edges run.
+TYPED_TEST(ContactFinderTest, DoNotDependOnWhichBodyComesFirst) {
+    constexpr int kDim = TypeParam::value;
+    constexpr int kFace = kDim == 3 ? 3 : 2;
+    for (const auto& [scene, lower, upper] :
+         {std::tuple(TestFixture::face_to_face(-0.05), kFace, kFace),
+          std::tuple(TestFixture::corner_over_box(-0.1), 2, 1)}) {
+        test::Scene<kDim> given = scene;
+        test::Scene<kDim> exchanged;
+        exchanged.add(test::cube<kDim>(upper), Vector<kDim>::Zero());
+        exchanged.add(test::cube<kDim>(lower), Vector<kDim>::Zero());
+        exchanged.body(0) = given.body(1);
+        exchanged.body(1) = given.body(0);
+        const Contacts<kDim> first = contacts_of(given);
+        const Contacts<kDim> second = contacts_of(exchanged);
+        ASSERT_GT(first.body_energy, 0);
+        EXPECT_EQ(first.list.size(), second.list.size());
+        // Sums have another order.
+        EXPECT_NEAR(first.body_energy, second.body_energy, 1e-12 * first.body_energy);
+        const Positions<kDim> forces = forces_of<kDim>(first, given.positions.cols());
+        const Positions<kDim> others = forces_of<kDim>(second, given.positions.cols());
+        const Eigen::Index count = given.begin[1];
+        EXPECT_LT((forces.leftCols(count) - others.rightCols(count)).norm(), 1e-12 * forces.norm());
+        EXPECT_LT((forces.rightCols(forces.cols() - count) - others.leftCols(forces.cols() - count))
+                      .norm(),
+                  1e-12 * forces.norm());
+    }
+}
+
 TYPED_TEST(ContactFinderTest, FlatFacesPushAlongTheirNormalAlone) {
     constexpr int kDim = TypeParam::value;
     constexpr double kGap = 0.05;

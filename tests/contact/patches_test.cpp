@@ -279,6 +279,40 @@ TYPED_TEST(PatchesTest, StayApartOnlyWhereAllTheirPairsDo) {
     EXPECT_GT(others, 100);
 }
 
+// What a bound says, of every two vertices of two patches on their way, and that it is not far from
+// what happens to some: patches that turn against each other use what their size allows for.
+TYPED_TEST(PatchesTest, TellOfNoTwoVerticesThatTheyAreFartherApartThanTheyAre) {
+    constexpr int kDim = TypeParam::value;
+    typename TestFixture::Bar bar;
+    const Surface<kDim>& surface = bar.scene.surfaces[0];
+    const PatchVertices edges(surface.edges, bar.edge_partition);
+    const PatchVertices ridges(surface.ridges, bar.ridge_partition);
+    double most_used = 0;  // of the lack
+    for (const auto& [earlier, from, to] : TestFixture::ways(bar.scene.positions)) {
+        bar.move(earlier, from, to);
+        const std::vector<Positions<kDim>> way{from, 0.5 * (from + to), to};
+        double too_far = -1;
+        for (std::size_t a = 0; a < bar.edges.size(); ++a) {
+            for (std::size_t b = 0; b < bar.ridges.size(); ++b) {
+                const PatchBound bound = bound_of<kDim>(bar.edges[a], bar.ridges[b]);
+                for (const std::uint32_t u : edges[a]) {
+                    for (const std::uint32_t v : ridges[b]) {
+                        const double told =
+                            bound.stretch * (earlier.col(u) - earlier.col(v)).norm();
+                        for (const Positions<kDim>& x : way) {
+                            const double now = (x.col(u) - x.col(v)).norm();
+                            too_far = std::max(too_far, told - bound.lack - now);
+                            most_used = std::max(most_used, (told - now) / bound.lack);
+                        }
+                    }
+                }
+            }
+        }
+        EXPECT_LT(too_far, 1e-9);
+    }
+    EXPECT_GT(most_used, 0.8);
+}
+
 // What a bound tells after another is no more than what is so: from one place to another, and on.
 TYPED_TEST(PatchesTest, StayApartAlsoByOneBoundAfterAnother) {
     constexpr int kDim = TypeParam::value;
@@ -324,6 +358,17 @@ TYPED_TEST(PatchesTest, NeverStayApartWhereNothingIsKnown) {
     for (const auto& [earlier, now] : {std::pair(rest, positions), std::pair(positions, rest)}) {
         bar.move(earlier, now);
         EXPECT_FALSE(stay_apart<kDim>(bar.edges[0], bar.edges[0], 2, 1));
+    }
+    // One that is not finite is enough, whichever it is.
+    const PatchVertices edges(bar.scene.surfaces[0].edges, bar.edge_partition);
+    for (const std::uint32_t vertex : edges[0]) {
+        positions = rest;
+        positions(1, vertex) = std::numeric_limits<double>::quiet_NaN();
+        for (const auto& [earlier, now] :
+             {std::pair(rest, positions), std::pair(positions, rest)}) {
+            bar.move(earlier, now);
+            EXPECT_FALSE(stay_apart<kDim>(bar.edges[0], bar.edges[0], 2, 1)) << vertex;
+        }
     }
     // All vertices on a line: a map across it is anyone's guess.
     Positions<kDim> line = rest;

@@ -57,8 +57,10 @@ struct Contact {
     Weights<Dim> weights = Weights<Dim>::Zero();    ///< beta, then -alpha; 0 where not in use.
     Vector<Dim> direction = Vector<Dim>::Zero();    ///< Unit length: that in which d grows.
     double distance = 0;                            ///< d, signed, m; negative inside.
-    double radius = 0;              ///< m, >= 0: the points are d + radius apart; of an obstacle.
-    double share = 1;               ///< Factor of the energy, held; of a mixed pair that fades.
+    double radius = 0;  ///< m, >= 0: the points are d + radius apart; of an obstacle.
+    double share = 1;   ///< Factor of the energy, held: of a mixed pair that fades, or a
+                        ///< facet that has a vertex in a valley with others.
+    double gain = 1;    ///< How fast d grows along direction, held; 1 but in valleys.
     std::int32_t multiplicity = 1;  ///< Pairs of simplices with these as their nearest faces.
     Mollifier mollifier;            ///< Of a mixed pair with all its corners, the edge first.
     Collider first;
@@ -71,7 +73,7 @@ struct Contact {
     std::uint8_t active = 0;        ///< Bit i: corner i spans one of the nearest faces.
 
     double energy = 0;  ///< J, at the stiffness that find() was given.
-    double slope = 0;   ///< psi', J/m = N, at the same.
+    double slope = 0;   ///< psi' times the gain, J/m = N, at the same.
 
     [[nodiscard]] bool is_self() const { return first == second; }
 
