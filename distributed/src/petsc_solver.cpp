@@ -2,6 +2,8 @@
 
 #include "petsc_error.h"
 
+#include <Eigen/Eigenvalues>
+
 #include <algorithm>
 #include <cstddef>
 #include <petscmat.h>
@@ -9,9 +11,44 @@
 
 namespace pent::distributed {
 
+namespace {
+
+// Combinations of motions that are shorter than the longest by this, squared, are rounding.
+constexpr double kDependent = 1e-10;
+
+// Of all ranks, one after the other, so that it is always the same.
+Eigen::MatrixXd sum_over_ranks(MPI_Comm comm, const Eigen::MatrixXd& own) {
+    int ranks = 0;
+    MPI_Comm_size(comm, &ranks);
+    Eigen::MatrixXd all(own.size(), ranks);
+    const auto count = static_cast<int>(own.size());
+    MPI_Allgather(own.data(), count, MPI_DOUBLE, all.data(), count, MPI_DOUBLE, comm);
+    Eigen::MatrixXd sum = Eigen::MatrixXd::Zero(own.rows(), own.cols());
+    for (int rank = 0; rank < ranks; ++rank) {
+        sum.reshaped() += all.col(rank);
+    }
+    return sum;
+}
+
+// By the eigenvectors of their products, columns in units of their lengths.
+Eigen::MatrixXd orthonormal(MPI_Comm comm, const Eigen::MatrixXd& motions) {
+    const Eigen::MatrixXd products = sum_over_ranks(comm, motions.transpose() * motions);
+    const Eigen::VectorXd scales = products.diagonal().cwiseSqrt().cwiseInverse();
+    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(scales.asDiagonal() * products
+                                                               * scales.asDiagonal());
+    const Eigen::Index kept =
+        (eigen.eigenvalues().array() >= kDependent * eigen.eigenvalues().maxCoeff()).count();
+    const Eigen::VectorXd lengths = eigen.eigenvalues().tail(kept).cwiseSqrt();
+    return motions
+           * (scales.asDiagonal() * eigen.eigenvectors().rightCols(kept)
+              * lengths.cwiseInverse().asDiagonal());
+}
+
+}  // namespace
+
 PetscSolver::PetscSolver(MPI_Comm comm, const simulator::SpreadMatrix& matrix) {
     make_matrix(comm, matrix);
-    tell_near_kernel(comm, matrix.near_kernel);
+    tell_near_kernel(comm, orthonormal(comm, matrix.near_kernel));
     check(MatCreateVecs(matrix_, &solution_, &right_));
     check(PCCreate(comm, &cycle_));
     check(PCSetOptionsPrefix(cycle_, kPrefix));

@@ -162,6 +162,33 @@ TYPED_TEST(Hold, GoesOnToTheBitFromEverySavedState) {
     }
 }
 
+// The step in which it begins is refused, and a host puts the body elsewhere before it tries again.
+TYPED_TEST(Hold, BeginsWhereVerticesAreWhenItsStepIsTriedAgain) {
+    constexpr int kDim = TypeParam::value;
+    for (const Integrator integrator : kWithInertia) {
+        Scene scene = falling_box<kDim>();
+        scene.solver.integrator = integrator;
+        scene.solver.max_halvings = 0;
+        scene.constraints = {left<kDim>(0.03, 0.06)};
+        Simulation<kDim> simulation(scene, {cube<kDim>()});
+        for (int i = 0; i < 3; ++i) {
+            ASSERT_TRUE(simulation.step().is_accepted);
+        }
+        Positions<kDim> positions = simulation.positions(0);
+        Positions<kDim> velocities = Positions<kDim>::Zero(kDim, positions.cols());
+        velocities.rightCols(1).setConstant(1e7);  // far beyond all bounds
+        simulation.set_state(0, positions, velocities);
+        ASSERT_FALSE(simulation.step().is_accepted);
+        positions.row(1).array() += 0.3;
+        simulation.set_state(0, positions, Positions<kDim>::Zero(kDim, positions.cols()));
+        const Positions<kDim> before = left_side(simulation);
+        for (int i = 0; i < 3; ++i) {
+            ASSERT_TRUE(simulation.step().is_accepted);
+            EXPECT_EQ(left_side(simulation), before) << i;
+        }
+    }
+}
+
 TYPED_TEST(Hold, WakesWhatSleepsWhereItIsLetGo) {
     constexpr int kDim = TypeParam::value;
     Scene scene = falling_box<kDim>();

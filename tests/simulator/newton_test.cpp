@@ -45,6 +45,37 @@ TEST(Newton, FindsTheEndOfRosenbrocksValleyDownhill) {
     EXPECT_LT(report.iterations, 60);
 }
 
+// Where a step has no room the next one has none, either: it is said at once, not after all the
+// iterations there may be. Unless the function has changed in between.
+TEST(Newton, DoesNotRepeatAStepWithoutRoom) {
+    struct Walled : PlainFunction {
+        using PlainFunction::PlainFunction;
+        int walls = 0;  // that accept() takes away, one after the other
+        double max_step(const Positions<3>& /*from*/, const Positions<3>& /*to*/) override {
+            return walls > 0 ? 0 : 1;
+        }
+        bool accept(const Positions<3>& /*at*/) override { return is_moving && walls-- > 0; }
+        bool is_moving = false;
+    };
+    for (const bool may_stop_short : {false, true}) {
+        Walled f(rosenbrock());
+        f.walls = 1;
+        Positions<3> x = point(-1.2, 1, 1);
+        const NewtonReport report = newton<3>(f, {.may_stop_short = may_stop_short}, x);
+        EXPECT_FALSE(report.has_converged);
+        EXPECT_EQ(report.failure_reason, "the line search found no decrease");
+        EXPECT_EQ(report.iterations, 1);
+        EXPECT_EQ(x, point(-1.2, 1, 1));
+    }
+    Walled f(rosenbrock());
+    f.walls = 3;
+    f.is_moving = true;
+    Positions<3> x = point(-1.2, 1, 1);
+    const NewtonReport report = newton<3>(f, {.tolerance = 1e-12}, x);
+    EXPECT_TRUE(report.has_converged) << report.failure_reason;
+    EXPECT_LT((x - point(1, 1, 1)).norm(), 1e-10);
+}
+
 // From near the end digits double with every iteration: two more of them for 1e-3 to 1e-12.
 TEST(Newton, GainsDigitsQuadratically) {
     const auto iterations = [](double tolerance) {

@@ -8,6 +8,8 @@
 
 #include <memory>
 #include <optional>
+#include <string>
+#include <utility>
 #include <vector>
 
 // Bodies and obstacles that a host adds and removes between steps.
@@ -366,16 +368,133 @@ TYPED_TEST(Edit, WakesWhatAnAddedObstacleTouches) {
     EXPECT_GT(simulation.velocities(0).row(1).maxCoeff(), 0);
 }
 
-// An empty `only` would let all see each other.
-TEST(EditOfPairs, LetsNothingSeeEachOtherThatDidNotBefore) {
-    Scene scene = tower<3>();
-    scene.contact->self = true;
-    scene.contact->only = {{"a", "b"}};
-    Simulation<3> simulation = start<3>(scene);
-    simulation.remove_body(0);
-    for (const std::size_t a : {0U, 1U}) {
-        for (const std::size_t b : {0U, 1U}) {
-            EXPECT_FALSE(may_touch(simulation.scene(), a, b));
+// Two grounds, and a body asleep on each: where one goes the other body sleeps on.
+TYPED_TEST(Edit, WakesNothingThatLiesElsewhere) {
+    constexpr int kDim = TypeParam::value;
+    Scene scene = test::two_cubes<kDim>(0.5);
+    scene.contact.reset();
+    scene.sleep = Sleep{};
+    scene.bodies[0].place.translate.setZero();
+    scene.bodies[1].place.translate[0] = 3;
+    for (const double x : {0.125, 3.125}) {
+        Eigen::VectorXd center = Eigen::VectorXd::Zero(kDim);
+        center[0] = x;
+        center[1] = x < 1 ? -1 : 0;
+        scene.obstacles.push_back({.shape = BallObstacle{.center = center, .radius = 1}});
+    }
+    scene.bodies[1].place.translate[1] = 1;
+    for (const int removed : {0, 1}) {
+        Simulation<kDim> simulation = start<kDim>(scene);
+        Snapshot<kDim> snapshot = simulation.save();
+        for (SleepState& state : snapshot.sleep) {
+            state.is_asleep = true;
+        }
+        simulation.restore(snapshot);
+        ASSERT_FALSE(simulation.contacts().empty());
+        simulation.remove_obstacle(removed);
+        EXPECT_EQ(simulation.sleep()[0].is_asleep, removed == 1);
+        EXPECT_EQ(simulation.sleep()[1].is_asleep, removed == 0);
+    }
+}
+
+// Which of its springs are broken, and where a constraint took its vertices up, goes with each part
+// of a scene, whatever is taken out before it. What is there from the start has no such place.
+TYPED_TEST(Edit, LeavesEverySpringAndHoldItsOwnState) {
+    constexpr int kDim = TypeParam::value;
+    Scene scene = tower<kDim>();
+    scene.contact.reset();
+    const auto hold = [](const char* body, double from) {
+        return Constraint{
+            .body = body,
+            .select = {HalfSpaceSelection{.normal = Eigen::VectorXd::Unit(kDim, 0), .offset = 0.1}},
+            .motion = {},
+            .from = from,
+            .to = from > 0 ? 1 : 0.015};
+    };
+    scene.constraints = {hold("a", 0.02), hold("a", 0), hold("b", 0),
+                         hold("b", 0.03), hold("c", 0), hold("c", 0.02)};
+    const auto tie = [&](const char* body, const char* target, bool does_break) {
+        Attachment attachment;
+        attachment.body = body;
+        attachment.select = {EverythingSelection{}};
+        attachment.target = target;
+        attachment.max_distance = 1;
+        attachment.break_force = does_break ? 1e-9 : 1e9;
+        scene.attachments.push_back(attachment);
+    };
+    tie("a", "", false);
+    tie("a", "b", true);
+    tie("b", "", true);
+    tie("c", "b", false);
+    tie("c", "", true);
+    Activation swelling;
+    swelling.select = {EverythingSelection{}};
+    swelling.stretch = 1.001;
+    for (const char* body : {"a", "b", "c"}) {
+        swelling.body = body;
+        scene.activations.push_back(swelling);
+    }
+    for (const int removed : {0, 1, 2}) {
+        const std::string name = scene.bodies[static_cast<std::size_t>(removed)].name;
+        Simulation<kDim> simulation = start<kDim>(scene);
+        take_steps(simulation, 5);
+        Positions<kDim> places(kDim, 0);
+        for (const Constraint& constraint : scene.constraints) {
+            const auto body = static_cast<int>(index_of(scene, constraint.body));
+            if (constraint.from == 0 || body == removed) {
+                continue;
+            }
+            for (const std::uint32_t v : all_vertices(simulation, body)) {  // held, where it was
+                if (simulation.mesh(body).positions(0, v) < 0.1) {
+                    places.conservativeResize(kDim, places.cols() + 1);
+                    places.rightCols(1) = simulation.positions(body).col(v);
+                }
+            }
+        }
+        const std::vector<std::uint8_t> before = simulation.save().broken_springs;
+        std::vector<std::uint8_t> broken;
+        constexpr std::ptrdiff_t kSprings = std::ptrdiff_t{1} << kDim;  // of each
+        for (std::size_t k = 0; k < scene.attachments.size(); ++k) {
+            const Attachment& attachment = scene.attachments[k];
+            const auto first = before.begin() + static_cast<std::ptrdiff_t>(k) * kSprings;
+            EXPECT_EQ(*(first + kSprings - 1), attachment.break_force < 1 ? 1 : 0) << k;
+            if (attachment.body != name && attachment.target != name) {
+                broken.insert(broken.end(), first, first + kSprings);
+            }
+        }
+        simulation.remove_body(removed);
+        EXPECT_EQ(simulation.save().broken_springs, broken);
+        EXPECT_EQ(simulation.save().hold_places, places);
+        EXPECT_EQ(simulation.scene().activations.size(), 2U);
+        take_steps(simulation, 2);
+    }
+}
+
+// Whoever is left sees whom it saw before. An empty `only` would let all see each other.
+TEST(EditOfPairs, LetsAllOthersSeeWhomTheySawBefore) {
+    for (const auto& [ignore, only] :
+         std::vector<std::pair<std::vector<BodyPair>, std::vector<BodyPair>>>{
+             {{}, {}},
+             {{}, {{"a", "b"}}},
+             {{}, {{"a", "b"}, {"b", "c"}}},
+             {{{"a", "c"}}, {}},
+             {{{"b", "b"}, {"a", "b"}}, {}}}) {
+        for (const bool self : {false, true}) {
+            for (const std::size_t removed : {0U, 1U, 2U}) {
+                Scene scene = tower<3>();
+                scene.contact->self = self;
+                scene.contact->ignore = ignore;
+                scene.contact->only = only;
+                Simulation<3> simulation = start<3>(scene);
+                simulation.remove_body(static_cast<int>(removed));
+                for (const std::size_t a : {0U, 1U}) {
+                    for (const std::size_t b : {0U, 1U}) {
+                        EXPECT_EQ(may_touch(simulation.scene(), a, b),
+                                  may_touch(scene, a + (a >= removed ? 1 : 0),
+                                            b + (b >= removed ? 1 : 0)));
+                    }
+                }
+            }
         }
     }
 }

@@ -306,6 +306,47 @@ TEST(SetState, RefusesWhatIsNotFinite) {
     EXPECT_THROW(simulation.set_state(0, positions, velocities), Error);
 }
 
+// Each part alone is wrong, and nothing has changed then.
+TEST(Restore, RefusesEveryPartThatDoesNotFit) {
+    Scene scene = box_scene<3>();
+    scene.gravity[1] = -9.8;
+    scene.solver.integrator = Integrator::Bdf2;
+    scene.constraints = {hold(LayerSelection{}, test::still(3))};
+    scene.constraints[0].select = {EverythingSelection{}};
+    scene.constraints[0].from = 1;
+    Attachment tie;
+    tie.body = "box";
+    tie.select = {EverythingSelection{}};
+    scene.attachments = {tie};
+    Simulation<3> simulation(scene, {pent::test::kuhn_box<3>({1, 1, 1}, {1, 1, 1})});
+    ASSERT_TRUE(simulation.step().is_accepted);
+    const Snapshot<3> good = simulation.save();
+    ASSERT_EQ(good.previous_positions.cols(), 8);
+    ASSERT_EQ(good.hold_places.cols(), 8);
+    ASSERT_EQ(good.broken_springs.size(), 8U);
+    std::vector<Snapshot<3>> bad;
+    for (Positions<3> Snapshot<3>::*array :
+         {&Snapshot<3>::positions, &Snapshot<3>::velocities, &Snapshot<3>::previous_positions,
+          &Snapshot<3>::previous_velocities, &Snapshot<3>::hold_places}) {
+        bad.insert(bad.end(), 4, good);
+        (bad.end()[-1].*array)(1, 7) = std::nan("");
+        (bad.end()[-2].*array)(1, 7) = INFINITY;
+        (bad.end()[-3].*array).conservativeResize(3, 7);
+        (bad.end()[-4].*array).setZero(3, 9);
+    }
+    bad.insert(bad.end(), 3, good);
+    bad.end()[-1].broken_springs[7] = 2;
+    bad.end()[-2].broken_springs.pop_back();
+    bad.end()[-3].sleep[0].is_asleep = true;  // without [sleep]
+    for (std::size_t k = 0; k < bad.size(); ++k) {
+        EXPECT_THROW(simulation.restore(bad[k]), Error) << k;
+    }
+    EXPECT_EQ(simulation.save().positions, good.positions);
+    EXPECT_EQ(simulation.save().hold_places, good.hold_places);
+    simulation.restore(good);
+    EXPECT_TRUE(simulation.step().is_accepted);
+}
+
 TEST(SetState, RefusesBodiesThatAreNotThere) {
     Simulation<4> simulation(box_scene<4>(), {bar(2)});
     const Positions<4> positions = simulation.positions(0);

@@ -8,6 +8,8 @@
 
 #include <algorithm>
 #include <limits>
+#include <string>
+#include <vector>
 
 // Bodies that sleep are not solved for, and nothing else changes.
 
@@ -350,6 +352,127 @@ TEST(StackOfBodies, FallsWhenAHostTakesTheLowerOneAway) {
         static_cast<void>(simulation.step());
     }
     EXPECT_LT(simulation.positions(1).row(1).mean(), height - 0.05);
+}
+
+// A row of cubes that touch, the first or the last of which is pushed: all wake in that step.
+template <int Dim>
+void expect_row_to_wake(int pushed) {
+    constexpr int kCount = 4;
+    Scene scene = two_cubes<Dim>(0);
+    scene.solver.integrator = Integrator::LinearEuler;  // which looks once
+    scene.sleep = Sleep{};
+    scene.bodies.clear();
+    for (int k = 0; k < kCount; ++k) {
+        Body body = test::box_scene<Dim>().bodies[0];
+        body.name = std::string(1, static_cast<char>('a' + k));
+        body.place.translate.setConstant(0.01 * (k % 2));  // no vertex is at another
+        body.place.translate[1] = 0.27 * k;
+        scene.bodies.push_back(body);
+    }
+    scene.contact->stiffness = 1e-6;  // who touches counts here, and not how hard
+    Simulation<Dim> simulation(scene, std::vector<SimplexMesh<Dim>>(kCount, cube<Dim>(1)));
+    Snapshot<Dim> snapshot = simulation.save();
+    for (SleepState& state : snapshot.sleep) {
+        state.is_asleep = true;
+    }
+    simulation.restore(snapshot);
+    EXPECT_EQ(simulation.step().asleep, kCount);
+    test::throw_up(simulation, pushed, 1e-3);
+    EXPECT_EQ(simulation.step().asleep, 0);
+}
+
+TEST(RowOfBodies, WakesFromEitherEnd) {
+    for (const int pushed : {0, 1, 3}) {
+        SCOPED_TRACE(pushed);
+        expect_row_to_wake<3>(pushed);
+        expect_row_to_wake<4>(pushed);
+    }
+}
+
+// Two cubes on a slab that is held for good: one slides along it, and the other sleeps all the
+// same. The slab itself neither sleeps nor is awake.
+template <int Dim>
+void expect_held_body_to_pass_nothing_on(Integrator integrator) {
+    Scene scene = two_cubes<Dim>(0);
+    scene.bodies.push_back(scene.bodies[0]);
+    scene.bodies[2].name = "slab";
+    scene.bodies[2].place.scale = 40;  // of cubes of 0.25 m
+    scene.bodies[2].place.translate.setConstant(-5);
+    scene.bodies[2].place.translate[1] = -10;
+    scene.bodies[0].place.translate[1] = 0.04;  // of 0.05, at which contact begins
+    scene.bodies[1].place.translate[0] = 2;
+    scene.bodies[1].place.translate[1] = 0.04;
+    scene.bodies[0].velocity = 1e-4 * Eigen::VectorXd::Unit(Dim, 0);  // as good as at rest
+    scene.bodies[1].velocity = Eigen::VectorXd::Unit(Dim, 0);
+    scene.contact->stiffness = 1e-6;
+    scene.solver.integrator = integrator;
+    scene.constraints = {{.body = "slab", .select = {EverythingSelection{}}, .motion = {}}};
+    scene.sleep = Sleep{.speed = 1e-2, .time = 0.03};
+    Simulation<Dim> simulation(scene, std::vector<SimplexMesh<Dim>>(3, cube<Dim>(1)));
+    for (int i = 0; i < 10; ++i) {
+        const StepReport report = simulation.step();
+        ASSERT_TRUE(report.is_accepted) << report.failure;
+        EXPECT_EQ(report.asleep, i < 2 ? 0 : 1) << i;
+        EXPECT_EQ(simulation.sleep()[0].is_asleep, i >= 2) << i;
+        EXPECT_FALSE(simulation.sleep()[1].is_asleep || simulation.sleep()[2].is_asleep) << i;
+        EXPECT_EQ(simulation.velocities(0).isZero(0), i >= 2) << i;
+        for (const int body : {0, 1}) {
+            const auto touches = [&](const contact::Contact<Dim>& contact) {
+                return static_cast<int>(contact.first.index) == body
+                       || static_cast<int>(contact.second.index) == body;
+            };
+            const auto contacts = simulation.contacts();
+            EXPECT_TRUE(std::any_of(contacts.begin(), contacts.end(), touches)) << i;
+        }
+    }
+}
+
+TEST(SleepingBody, IsNotKeptAwakeThroughOneThatIsHeld) {
+    for (const Integrator integrator :
+         {Integrator::LinearEuler, Integrator::NewtonEuler, Integrator::Bdf2}) {
+        SCOPED_TRACE(static_cast<int>(integrator));
+        expect_held_body_to_pass_nothing_on<3>(integrator);
+    }
+    expect_held_body_to_pass_nothing_on<4>(Integrator::Bdf2);
+}
+
+// Slow enough to fall asleep, and woken in the next step by nothing that would move it: it stays.
+TEST(SleepingBody, IsAtRestThoughItIsWokenAtOnce) {
+    for (const Integrator integrator :
+         {Integrator::LinearEuler, Integrator::NewtonEuler, Integrator::Bdf2}) {
+        Scene scene = test::box_scene<3>();
+        scene.solver.integrator = integrator;
+        scene.bodies[0].velocity = Eigen::Vector3d(1e-4, 0, 0);
+        scene.sleep = Sleep{.speed = 1e-2, .time = 0.2};
+        Simulation<3> simulation(scene, {cube<3>(1)});
+        while (simulation.step().asleep == 0) {
+            ASSERT_LT(simulation.step_count(), 10U);
+        }
+        const Positions<3> before = simulation.positions(0);
+        simulation.set_forces(0, Positions<3>::Constant(3, before.cols(), 1e-300));
+        EXPECT_EQ(simulation.step().asleep, 0);
+        EXPECT_LT((simulation.positions(0) - before).cwiseAbs().maxCoeff(), 1e-14);
+        EXPECT_LT(simulation.velocities(0).cwiseAbs().maxCoeff(), 1e-12);
+    }
+}
+
+// Of a barrier that was stiffer, or less so, than it is where the other one falls asleep.
+TEST(SleepingBody, KeepsItsStiffnessWhereAnotherFallsAsleep) {
+    Scene scene = two_cubes<3>(1);
+    scene.solver.integrator = Integrator::NewtonEuler;
+    scene.contact->model = ContactModel::Barrier;
+    scene.sleep = Sleep{.speed = 1e-3, .time = 0.03};
+    Simulation<3> simulation(scene, {cube<3>(1), cube<3>(1)});
+    Snapshot<3> snapshot = simulation.save();
+    const double other = 3 * snapshot.contact_stiffness;
+    snapshot.sleep[0] = {.is_asleep = true, .quiet_steps = 9, .contact_stiffness = other};
+    simulation.restore(snapshot);
+    for (int i = 0; i < 6; ++i) {
+        ASSERT_TRUE(simulation.step().is_accepted);
+    }
+    EXPECT_TRUE(simulation.sleep()[1].is_asleep);
+    EXPECT_EQ(simulation.sleep()[1].contact_stiffness, snapshot.contact_stiffness);
+    EXPECT_EQ(simulation.sleep()[0], snapshot.sleep[0]);
 }
 
 TEST(SleepingBody, DoesNotHinderThoseFarAway) {

@@ -2,8 +2,6 @@
 
 #include <pent/dimensions.h>
 
-#include <Eigen/Eigenvalues>
-
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -13,9 +11,6 @@
 namespace pent::simulator {
 
 namespace {
-
-// Combinations of motions that are shorter than the longest by this, squared, are rounding.
-constexpr double kDependent = 1e-10;
 
 // @param first  Rows of the ranks before each.
 template <int Dim, typename Scalar>
@@ -127,9 +122,9 @@ void make_diagonal_definite(SpreadMatrix& matrix) {
     }
 }
 
-// Rigid motions of everything, in terms of the modes of aggregates, orthonormal over all ranks.
+// Rigid motions of everything, in terms of the modes of aggregates.
 template <int Dim>
-Eigen::MatrixXd rigid_motions(const AggregatePlaces<Dim>& places, const Sharing& sharing) {
+Eigen::MatrixXd rigid_motions(const AggregatePlaces<Dim>& places) {
     constexpr int kSize = kModes<Dim>;
     Eigen::MatrixXd motions = Eigen::MatrixXd::Zero(kSize * places.middles.cols(), kSize);
     for (Eigen::Index a = 0; a < places.middles.cols(); ++a) {
@@ -145,20 +140,7 @@ Eigen::MatrixXd rigid_motions(const AggregatePlaces<Dim>& places, const Sharing&
             }
         }
     }
-    // By the eigenvectors of their products, columns in units of their lengths.
-    std::vector<double> sums(std::size_t{kSize} * kSize);
-    using Products = Eigen::Matrix<double, kSize, kSize>;
-    Eigen::Map<Products> products(sums.data());
-    products = motions.transpose() * motions;
-    sharing.sum(sums);
-    const Eigen::Matrix<double, kSize, 1> scales = products.diagonal().cwiseSqrt().cwiseInverse();
-    const Eigen::SelfAdjointEigenSolver<Products> eigen(scales.asDiagonal() * products
-                                                        * scales.asDiagonal());
-    const Eigen::Index dropped =
-        (eigen.eigenvalues().array() < kDependent * eigen.eigenvalues().maxCoeff()).count();
-    const Eigen::MatrixXd independent = eigen.eigenvectors().rightCols(kSize - dropped);
-    const Eigen::VectorXd lengths = eigen.eigenvalues().tail(kSize - dropped).cwiseSqrt();
-    return motions * (scales.asDiagonal() * independent * lengths.cwiseInverse().asDiagonal());
+    return motions;
 }
 
 }  // namespace
@@ -187,7 +169,7 @@ SharedCoarseSolver<Dim, Scalar>::SharedCoarseSolver(const Workers& workers,
         return;
     }
     make_diagonal_definite<Scalar>(own);
-    own.near_kernel = rigid_motions<Dim>(places, *sharing);
+    own.near_kernel = rigid_motions<Dim>(places);
     spread_ = sharing->ranks().make_solver(own);
 }
 

@@ -205,10 +205,10 @@ std::vector<std::size_t> HeldVertices<Dim>::hold(std::uint64_t step,
                                                  const Positions<Dim>& positions) {
     std::vector<std::size_t> changed;
     for (DirichletSet<Dim>& set : sets_) {
-        if (set.is_held(step) == is_held(set)) {
-            continue;
+        if (set.is_held(step) != is_held(set)) {
+            changed.push_back(set.body);
         }
-        changed.push_back(set.body);
+        // Again where the step was refused: a host may have put the body elsewhere since.
         if (step == set.first_step && set.begins_later()) {
             take_up<Dim>(positions, set);
         }

@@ -117,16 +117,18 @@ private:
         if ((has_stalled || best_age_ >= kKinkIterations) && is_at_kink()) {
             return false;
         }
-        if (!factor && options_.may_stop_short && report_.iterations > 1) {
-            return finish(residual());
-        }
-        if (!factor) {
-            return fail("the line search found no decrease");
-        }
-        if (!((x_ - start_).cwiseAbs().maxCoeff() < options_.bound)) {
+        if (factor && !((x_ - start_).cwiseAbs().maxCoeff() < options_.bound)) {
             return fail("the motion grew beyond all bounds");
         }
-        const bool has_changed = function_.accept(x_);
+        const bool has_changed = factor && function_.accept(x_);
+        // What a step could not leave, the next one cannot, either, unless the function changed.
+        const bool is_stuck = !factor || (*factor == 0 && !is_pending_ && !has_changed);
+        if (is_stuck && options_.may_stop_short && report_.iterations > 1) {
+            return finish(residual());
+        }
+        if (is_stuck) {
+            return fail("the line search found no decrease");
+        }
         if (!is_pending_ && *factor >= 1
             && *factor * correction < options_.settled * options_.min_correction
             && residual() <= options_.settled * options_.tolerance) {

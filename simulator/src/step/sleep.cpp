@@ -5,6 +5,7 @@
 #include <pent/dimensions.h>
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <utility>
 
@@ -70,9 +71,6 @@ template <int Dim>
 bool Islands<Dim>::wake(const Couplings& couplings,
                         const Positions<Dim>& from,
                         const Positions<Dim>& to) {
-    if (asleep_count() == 0) {
-        return false;
-    }
     std::vector<bool> is_moving(states_.size());
     for (std::size_t body = 0; body < states_.size(); ++body) {
         is_moving[body] = !states_[body].is_asleep && !is_kinematic_[body];
@@ -115,9 +113,7 @@ bool Islands<Dim>::put_to_sleep(const Couplings& couplings,
                                 const HeldVertices<Dim>& held,
                                 const Positions<Dim>& velocities,
                                 double stiffness) {
-    if (!is_on_) {
-        return false;
-    }
+    assert(is_on_);
     std::vector<bool> is_driven(states_.size());
     for (const std::size_t body : couplings.driven) {
         is_driven[body] = !is_kinematic_[body];

@@ -49,7 +49,8 @@ struct SpreadMatrix {
     std::vector<std::int64_t> row_start;  ///< Of block rows: rows of this rank + 1 entries.
     std::vector<std::int64_t> columns;    ///< Counted over all ranks, increasing within a row.
     std::vector<double> values;           ///< Block after block, each by rows.
-    /// A column for each motion that costs next to no energy: orthonormal, rows of this rank.
+    /// A column for each motion that costs next to no energy: rows of this rank. Of a body that is
+    /// thin or small they may depend on one another.
     Eigen::MatrixXd near_kernel;
 
     [[nodiscard]] std::int64_t rows() const {
