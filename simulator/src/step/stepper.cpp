@@ -80,8 +80,8 @@ void Simulation<Dim>::Stepper::evaluate_current() {
     }
 }
 
-// The same of a state that no step has led to, or where one was refused: what terms hold of the last
-// one (normal forces of friction, rates of damping, walls of pressure) is of another state.
+// The same of a state that no step has led to: what terms hold of the last one (normal forces of
+// friction, rates of damping, walls of pressure) is of another state.
 template <int Dim>
 void Simulation<Dim>::Stepper::evaluate_anew() {
     evaluate_current();
@@ -352,7 +352,7 @@ StepReport Simulation<Dim>::Stepper::step() {
     } else {
         energy_.contact->set_stiffness(stiffness_before);
         energy_.sum.invalidate();
-        evaluate_anew();
+        evaluate_current();
     }
     report.step = steps_;
     report.time = time();
