@@ -1,3 +1,4 @@
+#include "support/file_bytes.h"
 #include "support/kuhn_box.h"
 #include "support/messages.h"
 #include "support/temp_folder.h"
@@ -13,20 +14,13 @@
 #include <fstream>
 #include <limits>
 #include <random>
-#include <sstream>
 
 namespace pent {
 namespace {
 
+using test::bytes_of;
 using test::error_of;
 using test::expect_contains;
-
-std::string bytes_of(const std::filesystem::path& path) {
-    std::ifstream file(path, std::ios::binary);
-    std::ostringstream text;
-    text << file.rdbuf();
-    return text.str();
-}
 
 // Cells with their corners in the order of ranks.
 template <int Dim>

@@ -1,4 +1,5 @@
 #include "support/extras.h"
+#include "support/file_bytes.h"
 #include "support/kuhn_box.h"
 #include "support/messages.h"
 #include "support/temp_folder.h"
@@ -10,24 +11,17 @@
 
 #include <gtest/gtest.h>
 
-#include <fstream>
 #include <limits>
-#include <sstream>
 
 namespace pent {
 namespace {
 
 using test::all_extras;
 using test::by_writers;
+using test::bytes_of;
 using test::error_of;
 using test::expect_contains;
 using test::expect_same;
-
-std::string bytes_of(const std::filesystem::path& path) {
-    std::ostringstream text;
-    text << std::ifstream(path, std::ios::binary).rdbuf();
-    return text.str();
-}
 
 template <int Dim>
 SimplexMesh<Dim> labeled_box() {

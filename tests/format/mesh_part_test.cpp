@@ -1,3 +1,4 @@
+#include "support/file_bytes.h"
 #include "support/kuhn_box.h"
 #include "support/messages.h"
 #include "support/temp_folder.h"
@@ -14,20 +15,14 @@
 #include <fstream>
 #include <limits>
 #include <numeric>
-#include <sstream>
 
 namespace pent {
 namespace {
 
 using test::by_writers;
+using test::bytes_of;
 using test::error_of;
 using test::expect_contains;
-
-std::string bytes_of(const std::filesystem::path& path) {
-    std::ostringstream text;
-    text << std::ifstream(path, std::ios::binary).rdbuf();
-    return text.str();
-}
 
 // Everything that a file may have of a mesh, but for what only children of quadratic cells have.
 SimplexMesh<4> rich_box() {

@@ -1,3 +1,4 @@
+#include "support/file_bytes.h"
 #include "support/kuhn_box.h"
 #include "support/messages.h"
 #include "support/temp_folder.h"
@@ -16,17 +17,11 @@
 #include <limits>
 #include <numeric>
 #include <random>
-#include <sstream>
 
 namespace pent {
 namespace {
 
-std::string bytes_of(const std::filesystem::path& path) {
-    std::ifstream file(path, std::ios::binary);
-    std::ostringstream text;
-    text << file.rdbuf();
-    return text.str();
-}
+using test::bytes_of;
 
 // A mesh with numbers that have no short decimal form.
 template <int Dim>

@@ -1,3 +1,4 @@
+#include "support/file_bytes.h"
 #include "support/temp_folder.h"
 #include "support/thread_writers.h"
 
@@ -7,21 +8,14 @@
 
 #include <gtest/gtest.h>
 
-#include <fstream>
 #include <limits>
 #include <random>
-#include <sstream>
 
 namespace pent {
 namespace {
 
 using test::by_writers;
-
-std::string bytes_of(const std::filesystem::path& path) {
-    std::ostringstream text;
-    text << std::ifstream(path, std::ios::binary).rdbuf();
-    return text.str();
-}
+using test::bytes_of;
 
 Frame<4> random_frame(Eigen::Index vertices) {
     std::srand(5);

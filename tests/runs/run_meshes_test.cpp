@@ -4,6 +4,7 @@
 #include "simulator/scenes.h"
 #include "simulator/thread_ranks.h"
 #include "support/extras.h"
+#include "support/file_bytes.h"
 #include "support/fork.h"
 #include "support/messages.h"
 #include "support/misfits.h"
@@ -21,7 +22,6 @@
 #include <fstream>
 #include <limits>
 #include <memory>
-#include <sstream>
 #include <string>
 #include <utility>
 #include <vector>
@@ -30,14 +30,9 @@ namespace pent::runs {
 namespace {
 
 namespace test = simulator::test;
+using pent::test::bytes_of;
 using pent::test::expect_contains;
 using pent::test::TempFolder;
-
-std::string text_of(const std::filesystem::path& path) {
-    std::ostringstream text;
-    text << std::ifstream(path, std::ios::binary).rdbuf();
-    return text.str();
-}
 
 // Held at x = 0, with fibers away from there, tied to where it is, by labels of its cells.
 Scene muscle(const TempFolder& folder) {
@@ -252,7 +247,7 @@ TEST(RunMeshes, OfFilesWithFaultsAreRefusedByRanksAsByOne) {
         static_cast<void>(write_mesh_slab(file, endless, {}, {.encoding = encoding}));
         expect_contains(outcome_of_all<4>(scene), {"fork.pent: vertex 7: z is inf"});
         static_cast<void>(write_mesh(file, mesh, {.encoding = encoding}));
-        std::string bytes = text_of(file);
+        std::string bytes = bytes_of(file);
         bytes[bytes.size() - 4] ^= 1;
         std::ofstream(file, std::ios::binary) << bytes;
         expect_contains(outcome_of_all<4>(scene), {"checksum"});
@@ -260,7 +255,7 @@ TEST(RunMeshes, OfFilesWithFaultsAreRefusedByRanksAsByOne) {
         std::ofstream(file, std::ios::binary) << bytes;
         expect_contains(outcome_of_all<4>(scene), {"scene.toml:3:1: ", "fork.pent: "});
     }
-    std::string text = text_of(file);
+    std::string text = bytes_of(file);
     text[text.size() - 40] = 'x';
     std::ofstream(file, std::ios::binary) << text;
     expect_contains(outcome_of_all<4>(scene), {"fork.pent: pentachoron "});
@@ -296,7 +291,7 @@ TEST(RunMeshes, WithFaultsBesideThemAreRefusedByRanksAsByOne) {
             expect_contains(outcome_of_all<4>(scene), {"pentachoron 3: inverted"});
         }
         static_cast<void>(write_mesh(file, mesh, {.encoding = encoding}, sound));
-        std::string bytes = text_of(file);
+        std::string bytes = bytes_of(file);
         bytes[bytes.size() - 2] = encoding == Encoding::Ascii ? 'x' : '\1';
         std::ofstream(file, std::ios::binary) << bytes;
         expect_contains(outcome_of_all<4>(scene),

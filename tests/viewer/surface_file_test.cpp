@@ -1,6 +1,7 @@
 #include "pent/viewer/surface_file.h"
 
 #include "meshes.h"
+#include "support/file_bytes.h"
 
 #include <pent/error.h>
 #include <pent/viewer/image.h>
@@ -9,7 +10,6 @@
 #include <gtest/gtest.h>
 
 #include <cstring>
-#include <fstream>
 #include <png.h>
 #include <sstream>
 #include <string>
@@ -18,14 +18,8 @@
 namespace pent::viewer {
 namespace {
 
+using pent::test::bytes_of;
 using pent::test::TempFolder;
-
-std::string bytes_of(const std::filesystem::path& path) {
-    std::ifstream file(path, std::ios::binary);
-    std::ostringstream bytes;
-    bytes << file.rdbuf();
-    return bytes.str();
-}
 
 template <typename Value>
 Value take(const std::string& bytes, std::size_t& at) {

@@ -104,8 +104,8 @@ bool is_model(const fs::path& path) {
 
 // The files that a model says its buffers are in; none where it cannot be read, as the page tells.
 std::vector<std::string> buffer_files(const fs::path& model) {
-    constexpr std::size_t kChunkBegin =
-        32;  // of the text, behind headers of the file and the chunk
+    // Of the text, behind the headers of the file and of its first chunk.
+    constexpr std::size_t kChunkBegin = 32;
     std::string text = read_file(model).value_or("");
     const bool is_chunked = text.starts_with("G4MF");
     std::istringstream stream(is_chunked ? text.substr(std::min(kChunkBegin, text.size())) : text);
