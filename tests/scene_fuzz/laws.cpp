@@ -279,6 +279,7 @@ constexpr Law kLaws[] = {
     {"reaction",  physics<check_reaction>},
     {"crossing",  physics<check_crossings>},
     {"sleep",     physics<check_sleep>},
+    {"host",      physics<check_host>},
 };
 // clang-format on
 

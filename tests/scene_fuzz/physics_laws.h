@@ -27,4 +27,9 @@ void check_crossings(const simulator::Scene& scene);
 /// lets it go.
 void check_sleep(const simulator::Scene& scene);
 
+/// What a host does at random, one, two or three acts before a step, has the same states for 1 and
+/// 3 threads; a step that is undone is the same when it is taken again; a state goes on in another
+/// simulation; and what is refused is refused in one line and has changed nothing.
+void check_host(const simulator::Scene& scene);
+
 }  // namespace pent::scene_fuzz

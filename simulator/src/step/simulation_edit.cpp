@@ -164,9 +164,11 @@ void Simulation<Dim>::add_body(const Body& body, SimplexMesh<Dim> mesh) {
     refuse_parts(stepper_->bodies());
     Scene scene = placed(stepper_->scene());
     scene.bodies.push_back(body);
+    check(scene);
     std::vector<SimplexMesh<Dim>> meshes = stepper_->bodies().meshes;
-    meshes.push_back(std::move(mesh));
-    auto next = std::make_shared<Stepper>(scene, std::move(meshes), stepper_->options());
+    meshes.push_back(place(std::move(mesh), body));
+    auto next =
+        std::make_shared<Stepper>(placed(std::move(scene)), std::move(meshes), stepper_->options());
     const State<Dim>& begin = next->current();
     Snapshot<Dim> snapshot = stepper_->save();
     const Eigen::Index before = snapshot.positions.cols();
