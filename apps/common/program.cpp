@@ -115,6 +115,12 @@ std::string unknown_option(const CLI::App& cli) {
 
 }  // namespace
 
+void make_folder_for(const std::filesystem::path& file) {
+    if (file.has_parent_path()) {
+        make_folder(file.parent_path());
+    }
+}
+
 bool stop_requested() {
     return stop_signals != 0;
 }
@@ -179,6 +185,7 @@ void Program::write_report(Verdict verdict, const std::string& error) {
     json.update(report_);
     // Paths may have bytes that are not UTF-8.
     const auto replace = nlohmann::ordered_json::error_handler_t::replace;
+    make_folder_for(common_.json);
     write_text(common_.json, json.dump(2, ' ', false, replace) + "\n");
 }
 

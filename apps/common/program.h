@@ -4,6 +4,7 @@
 
 #include <CLI/CLI.hpp>
 #include <chrono>
+#include <filesystem>
 #include <functional>
 #include <nlohmann/json.hpp>
 #include <string>
@@ -85,6 +86,10 @@ private:
     std::chrono::steady_clock::time_point start_;
     nlohmann::ordered_json report_ = nlohmann::ordered_json::object();
 };
+
+/// Makes the folder of a file that is going to be written, as every program does for every file.
+/// Throws an Error as make_folder() does.
+void make_folder_for(const std::filesystem::path& file);
 
 /// Whether the user asked the program to stop (SIGINT or SIGTERM).
 [[nodiscard]] bool stop_requested();

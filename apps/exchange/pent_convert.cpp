@@ -115,6 +115,7 @@ Verdict convert(Program& program, Arguments& arguments) {
         say_body(program, std::get<exchange::Body>(content), format);
     }
     arguments.options.frames = read_frames(arguments);
+    make_folder_for(arguments.output);
     exchange::write(arguments.output, content, arguments.options);
     if (!arguments.options.frames.empty()) {
         program.say("frames     " + std::to_string(arguments.options.frames.size())

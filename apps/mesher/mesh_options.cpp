@@ -74,7 +74,7 @@ void add_placement(CLI::App& cli,
     CLI::Option* regions =
         cli.add_option("--region-array", arguments.request.region_array,
                        "Of VTK: the array of the cells with their labels; default: region, "
-                       "material, attribute or the like")
+                       "material, attribute or another of docs/mesher.md, in any letters")
             ->type_name("NAME")
             ->group(group);
     for (CLI::Option* shape : shapes) {

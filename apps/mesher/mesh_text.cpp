@@ -46,6 +46,23 @@ template nlohmann::ordered_json box_json<2>(const Positions<2>&);
 template nlohmann::ordered_json box_json<3>(const Positions<3>&);
 template nlohmann::ordered_json box_json<4>(const Positions<4>&);
 
+template <int Dim>
+std::string carried_names(const SimplexMesh<Dim>& mesh, const MeshExtras<Dim>& extras) {
+    std::string names;
+    for (const std::vector<VertexField>& fields : {extras.vertex_fields, extras.cell_fields}) {
+        for (const VertexField& field : fields) {
+            names += (names.empty() ? "" : ", ") + field.name;
+        }
+    }
+    if (mesh.fibers.cols() > 0) {
+        names += names.empty() ? "fibers" : ", fibers";
+    }
+    return names;
+}
+
+template std::string carried_names<3>(const SimplexMesh<3>&, const MeshExtras<3>&);
+template std::string carried_names<4>(const SimplexMesh<4>&, const MeshExtras<4>&);
+
 std::string straight_line(std::int64_t cells) {
     return formatted("straight   %lld cell%s of higher order, by their corners alone",
                      static_cast<long long>(cells),  // NOLINT(google-runtime-int): printf's type

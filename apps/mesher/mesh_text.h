@@ -1,6 +1,7 @@
 #pragma once
 
 #include <pent/mesher/quality.h>
+#include <pent/pent_file.h>
 #include <pent/simplex_mesh.h>
 
 #include <cstdint>
@@ -19,6 +20,12 @@ template <int Dim>
 
 /// "straight   5 cells of higher order, ...": of how many cells the corners alone were taken.
 [[nodiscard]] std::string straight_line(std::int64_t cells);
+
+/// The names of what a body has of its vertices and cells beside regions, with commas; empty if
+/// there is nothing.
+template <int Dim>
+[[nodiscard]] std::string carried_names(const SimplexMesh<Dim>& mesh,
+                                        const MeshExtras<Dim>& extras);
 
 /// One line with the figures that matter most.
 [[nodiscard]] std::string quality_line(const mesher::QualityReport& report);

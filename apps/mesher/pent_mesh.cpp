@@ -84,6 +84,9 @@ void say_cells(const Program& program, const BodyReport& report) {
     if (report.curved_cells > 0) {
         program.say(pent::apps::straight_line(report.curved_cells));
     }
+    if (!report.region_array.empty()) {
+        program.say("regions    of the array \"" + report.region_array + "\"");
+    }
     if (!report.left_out.empty()) {
         program.say("left out   " + report.left_out + ": no part of a body");
     }
@@ -146,6 +149,10 @@ void say_body(const Program& program, const pent::mesher::Body<Dim>& body) {
         "volume as expected to %.1e",
         static_cast<Long>(proof.interior_facets), static_cast<Long>(proof.boundary_facets),
         std::abs(proof.volume - proof.expected_volume) / proof.expected_volume));
+    if (const std::string names = pent::apps::carried_names(body.mesh, body.extras);
+        !names.empty()) {
+        program.say("carried    " + names);
+    }
     program.say("quality    " + pent::apps::quality_line(report.quality));
 }
 
@@ -187,8 +194,11 @@ nlohmann::ordered_json to_json(const pent::mesher::Body<Dim>& body) {
         {"turned", boundary.turned},         {"open", boundary.open},
         {"holes", boundary.holes},           {"largest_hole", boundary.largest_hole},
         {"inner", boundary.inner},           {"patches", boundary.patches}};
-    json["cells"] = {
-        {"cut", report.cut}, {"left_out", report.left_out}, {"curved", report.curved_cells}};
+    json["cells"] = {{"cut", report.cut},
+                     {"left_out", report.left_out},
+                     {"curved", report.curved_cells},
+                     {"region_array", report.region_array},
+                     {"carried", pent::apps::carried_names(body.mesh, body.extras)}};
     json["base"] = {{"generator", report.generator}, {"failures", report.failures},
                     {"fillings", report.fillings},   {"vertices", report.base_vertices},
                     {"cells", report.base_cells},    {"volume", report.base_volume},
@@ -242,17 +252,16 @@ void write(const Program& program,
            const MeshArguments& arguments,
            const pent::mesher::Body<Dim>& body) {
     const auto encoding = arguments.ascii ? pent::Encoding::Ascii : pent::Encoding::Binary;
-    if (arguments.output.has_parent_path()) {
-        pent::make_folder(arguments.output.parent_path());
-    }
+    pent::apps::make_folder_for(arguments.output);
     const pent::WriteOptions options{.encoding = encoding,
                                      .created_by = program.name_and_version()};
     if (body.extrusion) {
         pent::write_extrusion<Dim>(arguments.output, *body.extrusion, options);
     } else {
-        pent::write_mesh(arguments.output, body.mesh, options);
+        pent::write_mesh(arguments.output, body.mesh, options, body.extras);
     }
     if (!arguments.histogram.empty()) {
+        pent::apps::make_folder_for(arguments.histogram);
         pent::write_text(
             arguments.histogram,
             pent::mesher::quality_svg(body.report.quality, arguments.output.filename().string()));

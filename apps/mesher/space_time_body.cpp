@@ -130,15 +130,14 @@ void write_slabs(const SpaceTimeBody& body, const fs::path& output, const WriteO
 void write(const Program& program, const MeshArguments& arguments, const SpaceTimeBody& body) {
     const WriteOptions options{.encoding = arguments.ascii ? Encoding::Ascii : Encoding::Binary,
                                .created_by = program.name_and_version()};
-    if (arguments.output.has_parent_path()) {
-        make_folder(arguments.output.parent_path());
-    }
+    make_folder_for(arguments.output);
     if (arguments.space_time.has_slabs) {
         write_slabs(body, arguments.output, options);
     } else {
         write_mesh(arguments.output, body.mesh, options, body.extras);
     }
     if (!arguments.histogram.empty()) {
+        make_folder_for(arguments.histogram);
         write_text(arguments.histogram,
                    mesher::quality_svg(body.quality, arguments.output.filename().string()));
     }
@@ -161,20 +160,6 @@ void require_slabs_apart(Program& program,
     }
     program.require_apart(inputs, slabs);
     program.require_apart(slabs, {{"--histogram", arguments.histogram}});
-}
-
-std::string names_of(const SpaceTimeBody& body) {
-    std::string names;
-    for (const std::vector<VertexField>& fields :
-         {body.extras.vertex_fields, body.extras.cell_fields}) {
-        for (const VertexField& field : fields) {
-            names += (names.empty() ? "" : ", ") + field.name;
-        }
-    }
-    if (body.mesh.fibers.cols() > 0) {
-        names += names.empty() ? "fibers" : ", fibers";
-    }
-    return names;
 }
 
 void say_time(const Program& program, const MeshArguments& arguments, const Made& made) {
@@ -210,7 +195,7 @@ void say_body(const Program& program, const Made& made) {
     if (!made.left_out.empty()) {
         program.say("left out   " + made.left_out);
     }
-    if (const std::string names = names_of(body); !names.empty()) {
+    if (const std::string names = carried_names(body.mesh, body.extras); !names.empty()) {
         program.say("carried    " + names);
     }
     if (!body.way_of_bisection.empty()) {
@@ -245,7 +230,7 @@ nlohmann::ordered_json json_of(const MeshArguments& arguments, const Made& made)
                           {"cut", made.cut},
                           {"left_out", made.left_out},
                           {"curved", made.curved_cells},
-                          {"carried", names_of(body)},
+                          {"carried", carried_names(body.mesh, body.extras)},
                           {"bisection", body.way_of_bisection}};
     json["mesh"] = {{"vertices", body.mesh.vertex_count()},
                     {"cells", body.proof.cells},

@@ -107,6 +107,7 @@ void check_outputs(Program& program,
     }
     program.require_apart(inputs, {{"--write-scene", arguments.write_scene}});
     if (!arguments.write_scene.empty()) {
+        pent::apps::make_folder_for(arguments.write_scene);
         const pent::OutputFile attempt(arguments.write_scene);  // before all the work
     }
 }

@@ -80,6 +80,7 @@ Verdict export_run(Program& program, const Arguments& arguments) {
     options.page = page_of(arguments);
     options.frames = viewer::select_frames(run.frames, arguments.frames);
     options.most_bytes = static_cast<std::int64_t>(arguments.limit * 1e6);
+    make_folder_for(arguments.output);
     WorkProgress progress(program.common().quiet);
     const viewer::ExportReport report =
         viewer::export_page(run, arguments.output, options, std::ref(progress));

@@ -1,6 +1,7 @@
 #include "base_mesh.h"
 
 #include "size_limits.h"
+#include "sound_base.h"
 
 #include <pent/error.h>
 #include <pent/input_path.h>
@@ -78,13 +79,13 @@ SurfaceFile surface_of(const BodyRequest& request) {
     return file;
 }
 
-SimplexMesh<3> read_base(const BodyRequest& request, BodyReport& report, StageClock& clock) {
+BaseMesh read_base(const BodyRequest& request, BodyReport& report, StageClock& clock) {
     if (const auto* shape = std::get_if<BallShape>(&request.input)) {
         SimplexMesh<3> mesh = ball(shape->frequency);
         mesh.positions *= shape->radius;
         require_usual_size<3>(mesh.positions, name_of_input(request) + ": the mesh");
         report.generator = "cones of a sphere";
-        return mesh;
+        return {std::move(mesh), {}};
     }
     TetrahedraFile file = clock.time("read", [&] {
         return read_tetrahedra(std::get<std::filesystem::path>(request.input), request.format,
@@ -92,18 +93,15 @@ SimplexMesh<3> read_base(const BodyRequest& request, BodyReport& report, StageCl
     });
     file.mesh.positions *= request.scale;
     require_usual_size<3>(file.mesh.positions, name_of_input(request) + ": the mesh");
-    const Proof proof = prove(file.mesh);
-    if (!proof.holds()) {
-        throw Error(name_of_input(request)
-                    + ": the tetrahedra do not fit together: " + describe_faults(proof, 3));
-    }
+    require_sound_base(file.mesh, name_of_input(request));
     report.cut = std::move(file.cut);
     report.left_out = std::move(file.left_out);
     report.curved_cells = file.curved_cells;
+    report.region_array = std::move(file.region_array);
     report.generator = file.turned_cells > 0
                            ? "as read, " + std::to_string(file.turned_cells) + " turned over"
                            : "as read";
-    return std::move(file.mesh);
+    return {std::move(file.mesh), std::move(file.extras)};
 }
 
 Tetrahedra fill_at(const Surface& surface,

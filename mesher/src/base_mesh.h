@@ -4,6 +4,7 @@
 
 #include <pent/mesher/make_body.h>
 #include <pent/mesher/surface.h>
+#include <pent/pent_file.h>
 
 #include <functional>
 #include <string>
@@ -19,10 +20,14 @@ namespace pent::mesher {
 /// The surface that a file has, scaled, or a sphere.
 [[nodiscard]] SurfaceFile surface_of(const BodyRequest& request);
 
-/// The tetrahedra that a file has, scaled, or a ball. Throws an Error if they do not fit together.
-[[nodiscard]] SimplexMesh<3> read_base(const BodyRequest& request,
-                                       BodyReport& report,
-                                       StageClock& clock);
+/// Tetrahedra that are there already, and what they have.
+struct BaseMesh {
+    SimplexMesh<3> mesh;
+    MeshExtras<3> extras;
+};
+
+/// The tetrahedra that a file has, scaled, or a ball. Throws an Error as require_sound_base() does.
+[[nodiscard]] BaseMesh read_base(const BodyRequest& request, BodyReport& report, StageClock& clock);
 
 /// How a surface is filled that is sound.
 using Fill = std::function<Tetrahedra(const Surface& surface, Surface& filled)>;

@@ -1,5 +1,6 @@
 #include "base_mesh.h"
 #include "check_request.h"
+#include "extrude_fields.h"
 #include "fill_target.h"
 #include "requested_layers.h"
 #include "size_limits.h"
@@ -58,15 +59,14 @@ SimplexMesh<Dim> quadratic_mesh(const SimplexMesh<Dim>& mesh,
     return quadratic;
 }
 
-// Moves the mesh where it is asked for, proves and measures it; subdivides it first if that is
-// asked for.
+// Moves a body of mesh, quantities and report where it is asked for, proves and measures it;
+// subdivides it first if that is asked for.
 //
 // @param onto  Where a curved boundary's middles go; empty where the surface is flat.
 template <int Dim>
-Body<Dim> finish(SimplexMesh<Dim> mesh,
+Body<Dim> finish(Body<Dim> body,
                  double expected_volume,
                  const BodyRequest& request,
-                 BodyReport report,
                  StageClock& clock,
                  const OntoSurface<Dim>& onto = {}) {
     if (request.is_curved && !onto) {
@@ -74,12 +74,19 @@ Body<Dim> finish(SimplexMesh<Dim> mesh,
                     + ": its surface is flat between its vertices; leave out the curved boundary,"
                       " which shape files, images, spheres and balls have");
     }
+    SimplexMesh<Dim>& mesh = body.mesh;
+    BodyReport& report = body.report;
     if (request.subdivide > 1) {
-        mesh = clock.time("subdivide", [&] { return subdivide<Dim>(mesh, request.subdivide); });
+        mesh = clock.time("subdivide", [&] {
+            body.extras = subdivide_fields<Dim>(mesh, body.extras, request.subdivide);
+            return subdivide<Dim>(mesh, request.subdivide);
+        });
     }
     if (request.is_quadratic) {
-        mesh = clock.time("quadratic",
-                          [&] { return quadratic_mesh<Dim>(mesh, request, onto, report.curve); });
+        mesh = clock.time("quadratic", [&] {
+            body.extras = subdivide_fields<Dim>(mesh, body.extras, 2);
+            return quadratic_mesh<Dim>(mesh, request, onto, report.curve);
+        });
     }
     for (Eigen::Index axis = 0; axis < request.translation.size(); ++axis) {
         mesh.positions.row(axis).array() += request.translation[axis];
@@ -93,7 +100,7 @@ Body<Dim> finish(SimplexMesh<Dim> mesh,
     }
     report.quality = clock.time("quality", [&] { return measure_quality<Dim>(mesh); });
     report.stages = clock.stages();
-    return {std::move(mesh), std::move(report), std::nullopt};
+    return body;
 }
 
 void announce(const BodyRequest& request, const ExpectedSize& size) {
@@ -137,8 +144,29 @@ void require_manifold(const SimplexMesh<Dim>& mesh, const std::string& name) {
     }
 }
 
+// What the file of a body that is kept as base and layers does not say of it.
+template <int Dim>
+void leave_out_fields(const SimplexMesh<Dim>& base,
+                      const MeshExtras<Dim>& fields,
+                      BodyReport& report) {
+    std::vector<std::string> names;
+    for (const std::vector<VertexField>& some : {fields.vertex_fields, fields.cell_fields}) {
+        for (const VertexField& field : some) {
+            names.push_back(field.name);
+        }
+    }
+    if (base.fibers.cols() > 0) {
+        names.emplace_back("fibers");
+    }
+    for (const std::string& name : names) {
+        report.left_out += (report.left_out.empty() ? "" : ", ") + name
+                           + " (base and layers have no place for it)";
+    }
+}
+
 template <int Dim>
 Body<Dim> extrude_and_prove(const SimplexMesh<Dim - 1>& base,
+                            const MeshExtras<Dim - 1>& fields,
                             const BodyRequest& request,
                             const ExtrusionRequest& extrusion,
                             BodyReport report,
@@ -165,12 +193,19 @@ Body<Dim> extrude_and_prove(const SimplexMesh<Dim - 1>& base,
     BodyRequest moved = request;  // so that base and layers are where the body is
     moved.translation.resize(0);
     const ExtrudeOptions options{.alternate = extrusion.alternate};
-    SimplexMesh<Dim> mesh =
+    Body<Dim> body;
+    body.mesh =
         clock.time("extrude", [&] { return extrude<Dim>(base, ordered, layers.layers, options); });
     if (layers.layers.front().is_point() || layers.layers.back().is_point()) {
-        require_manifold(mesh, name_of_input(request));
+        require_manifold(body.mesh, name_of_input(request));
     }
-    Body<Dim> body = finish<Dim>(std::move(mesh), layers.volume, moved, std::move(report), clock);
+    if (extrusion.is_kept) {
+        leave_out_fields(base, fields, report);
+    } else {
+        body.extras = extrude_fields<Dim>(base, fields, layers.layers, body.mesh);
+    }
+    body.report = std::move(report);
+    body = finish<Dim>(std::move(body), layers.volume, moved, clock);
     if (extrusion.is_kept) {
         body.extrusion = {base, std::move(ordered), std::move(layers.layers), options};
     }
@@ -259,7 +294,7 @@ Body<Dim> make_box(const BoxShape& shape, const BodyRequest& request, StageClock
     require_usual_size<Dim>(mesh.positions, name_of_input(request) + ": the body");
     BodyReport report;
     report.generator = Dim == 4 ? "tesseracts" : "cubes";
-    return finish<Dim>(std::move(mesh), extent.prod(), request, std::move(report), clock);
+    return finish<Dim>({std::move(mesh), {}, std::move(report), {}}, extent.prod(), request, clock);
 }
 
 // Of a sphere that was made anew the vertices are on the flat triangles it had before, where
@@ -279,6 +314,7 @@ void require_vertices_on_sphere(double radius, const SimplexMesh<3>& mesh) {
 
 // The tetrahedra are the body.
 Body<3> finish_solid(SimplexMesh<3> mesh,
+                     MeshExtras<3> extras,
                      const BodyRequest& request,
                      BodyReport report,
                      StageClock& clock) {
@@ -297,7 +333,8 @@ Body<3> finish_solid(SimplexMesh<3> mesh,
         onto = onto_sphere(ball->radius);
     }
     const double expected_volume = request.is_curved ? 0 : report.base_volume;
-    return finish<3>(std::move(mesh), expected_volume, request, std::move(report), clock, onto);
+    return finish<3>({std::move(mesh), std::move(extras), std::move(report), {}}, expected_volume,
+                     request, clock, onto);
 }
 
 bool is_flat(const Surface& surface) {
@@ -348,7 +385,7 @@ Body<4> make_stuffed(const std::filesystem::path& path,
     report.beveled = stuffed.beveled;
     report.thin_parts = stuffed.thin_parts;
     report.thin_parts.place.head(request.translation.size()) += request.translation;
-    return finish<4>(std::move(stuffed.mesh), 0, request, std::move(report), clock,
+    return finish<4>({std::move(stuffed.mesh), {}, std::move(report), {}}, 0, request, clock,
                      onto_boundary(input.solid));
 }
 
@@ -385,13 +422,14 @@ Body<4> make_body(const BodyRequest& request) {
     ExtrusionRequest extrusion = request.extrusion;
     if (has_tetrahedra(request)) {
         refuse_filling(request);
-        const SimplexMesh<3> base = read_base(request, report, clock);
-        return extrude_and_prove<4>(base, request, extrusion, std::move(report), clock);
+        const BaseMesh base = read_base(request, report, clock);
+        return extrude_and_prove<4>(base.mesh, base.extras, request, extrusion, std::move(report),
+                                    clock);
     }
     const SurfaceFile file = clock.time("read", [&] { return surface_of(request); });
     report.left_out = file.left_out;
     const SimplexMesh<3> base = filled_base<4>(file, request, extrusion, report, clock);
-    return extrude_and_prove<4>(base, request, extrusion, std::move(report), clock);
+    return extrude_and_prove<4>(base, {}, request, extrusion, std::move(report), clock);
 }
 
 Body<3> make_solid(const BodyRequest& request) {
@@ -408,8 +446,9 @@ Body<3> make_solid(const BodyRequest& request) {
     if (has_tetrahedra(request)) {
         refuse_extrusion(request);
         refuse_filling(request);
-        SimplexMesh<3> mesh = read_base(request, report, clock);
-        return finish_solid(std::move(mesh), request, std::move(report), clock);
+        BaseMesh base = read_base(request, report, clock);
+        return finish_solid(std::move(base.mesh), std::move(base.extras), request,
+                            std::move(report), clock);
     }
     const SurfaceFile file = clock.time("read", [&] { return surface_of(request); });
     report.left_out = file.left_out;
@@ -420,7 +459,7 @@ Body<3> make_solid(const BodyRequest& request) {
         BodyRequest lifted = request;  // to where the triangles are
         lifted.translation = Eigen::Vector3d(0, 0, file.surface.points(2, 0));
         lifted.translation.head(request.translation.size()) += request.translation;
-        return extrude_and_prove<3>(plane_mesh(file.surface, name_of_input(request)), lifted,
+        return extrude_and_prove<3>(plane_mesh(file.surface, name_of_input(request)), {}, lifted,
                                     request.extrusion, std::move(report), clock);
     }
     refuse_extrusion(request);
@@ -431,7 +470,7 @@ Body<3> make_solid(const BodyRequest& request) {
     }
     ExtrusionRequest none;
     SimplexMesh<3> mesh = filled_base<3>(file, request, none, report, clock);
-    return finish_solid(std::move(mesh), request, std::move(report), clock);
+    return finish_solid(std::move(mesh), {}, request, std::move(report), clock);
 }
 
 }  // namespace pent::mesher

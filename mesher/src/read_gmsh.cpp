@@ -1,6 +1,8 @@
 #include "number_reader.h"
 #include "tet_readers.h"
 
+#include <pent/formatted.h>
+
 #include <algorithm>
 #include <array>
 #include <cstdlib>
@@ -118,10 +120,14 @@ public:
             const std::string section(text_.word());
             if (section == "$MeshFormat") {
                 read_format();
+            } else if (section == "$Comments") {
+                skip_section("$EndComments");
+                static_cast<void>(text_.next_line());
             } else if (version_ == 0) {
                 text_.fail("no $MeshFormat at the start; expected a Gmsh file");
-            } else if (section == "$Entities" && version_ == 4) {
-                read_entities();
+            } else if ((section == "$Entities" || section == "$PartitionedEntities")
+                       && version_ == 4) {
+                read_entities(section);
             } else if (section == "$Nodes") {
                 version_ == 2 ? read_nodes_2() : read_nodes_4();
             } else if (section == "$Elements") {
@@ -141,10 +147,13 @@ public:
 private:
     void read_format() {
         const double version = text_.number(text_.next_word("a version"), "a version");
-        if (version != 2.2 && version != 4.1) {
-            text_.fail("Gmsh version " + std::to_string(version) + "; expected 2.2 or 4.1");
+        if (!(version >= 2 && version <= 2.2) && version != 4.1) {  // 2.0 and 2.1 have fewer tags
+            text_.fail(
+                formatted("Gmsh version %g; expected 2.0 to 2.2 or 4.1: save it again with"
+                          " gmsh -save -format msh41",
+                          version));
         }
-        version_ = version == 2.2 ? 2 : 4;
+        version_ = version < 4 ? 2 : 4;
         const std::int64_t is_binary = text_.integer(text_.word(), "0 for text or 1 for binary");
         const std::int64_t size = text_.integer(text_.word(), "the size of numbers");
         if (is_binary == 0) {
@@ -185,9 +194,18 @@ private:
     std::int64_t long_number() { return numbers_.whole<std::uint64_t>("a whole number"); }
     std::int64_t long_count() { return numbers_.count<std::uint64_t>("a count"); }
 
-    // The physical groups of the volumes: in version 4 elements name their entity alone.
-    void read_entities() {
+    // The physical groups of the volumes: in version 4 elements name their entity alone, which in a
+    // mesh for many processes is a part of a volume.
+    void read_entities(const std::string& section) {
         constexpr std::size_t kVolume = 3;
+        const bool has_parts = section == "$PartitionedEntities";
+        if (has_parts) {
+            static_cast<void>(long_number());  // of processes
+            const std::int64_t ghosts = long_count();
+            for (std::int64_t i = 0; i < 2 * ghosts; ++i) {
+                static_cast<void>(number());
+            }
+        }
         std::array<std::int64_t, kVolume + 1> counts{};  // by dimension
         for (std::int64_t& entities : counts) {
             entities = long_count();
@@ -195,6 +213,14 @@ private:
         for (std::size_t dimension = 0; dimension < counts.size(); ++dimension) {
             for (std::int64_t i = 0; i < counts[dimension]; ++i) {
                 const std::int64_t entity = number();
+                if (has_parts) {
+                    const std::int64_t whole_dimension = number();
+                    const std::int64_t whole = number();
+                    if (dimension == kVolume && whole_dimension == kVolume) {
+                        wholes_[entity] = whole;
+                    }
+                    static_cast<void>(read_tags());  // which processes have it
+                }
                 for (int corner = 0; corner < (dimension == 0 ? 1 : 2); ++corner) {
                     static_cast<void>(numbers_.point<double>());  // of the box around it
                 }
@@ -207,10 +233,12 @@ private:
                 }
             }
         }
-        if (text_.next_word("$EndEntities") != "$EndEntities") {
+        const std::string end = "$End" + section.substr(1);
+        if (text_.next_word(end) != end) {
             text_.fail(
                 "more or less than the numbers of points, curves, surfaces and volumes say;"
-                " expected $EndEntities");
+                " expected "
+                + end);
         }
     }
 
@@ -304,7 +332,9 @@ private:
         for (std::int64_t block = 0; block < blocks; ++block) {
             static_cast<void>(number());  // dimension
             const std::int64_t entity = number();
-            const Place place{.group = group_of(entity), .entity = entity};
+            const auto whole = wholes_.find(entity);
+            const Place place{.group = group_of(entity),
+                              .entity = whole == wholes_.end() ? entity : whole->second};
             const ElementType& type = type_of(text_, number());
             const std::int64_t count = long_count();
             for (std::int64_t i = 0; i < count; ++i) {
@@ -339,6 +369,7 @@ private:
     CellSoup soup_;
     Nodes nodes_;
     std::map<std::int64_t, std::int64_t> groups_;  // of volumes that are in one
+    std::map<std::int64_t, std::int64_t> wholes_;  // of parts: the volume of each
     std::vector<std::int64_t> volumes_;            // one a cell of three dimensions
     std::vector<std::uint32_t> cell_;
     std::int64_t version_ = 0;  // 2 or 4

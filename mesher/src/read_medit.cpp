@@ -42,6 +42,8 @@ constexpr std::array kSections = {
     Section{"RequiredVertices", std::nullopt, 1, false},
     Section{"RequiredEdges", std::nullopt, 1, false},
     Section{"RequiredTriangles", std::nullopt, 1, false},
+    Section{"RequiredQuadrilaterals", std::nullopt, 1, false},
+    Section{"RequiredTetrahedra", std::nullopt, 1, false},
     Section{"Normals", std::nullopt, 3, false},
     Section{"NormalAtVertices", std::nullopt, 2, false},
     Section{"Tangents", std::nullopt, 3, false},

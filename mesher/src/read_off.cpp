@@ -15,16 +15,21 @@ void next_line(TextReader& text, const char* expected) {
     }
 }
 
-std::vector<std::uint32_t> read_polygon(TextReader& text, std::int64_t points) {
+// A face of two corners is a line, one of one a point.
+void read_face(TextReader& text, std::int64_t points, SoupBuilder& builder) {
     const std::int64_t corners = text.integer(text.word(), "the number of corners of a face");
-    if (corners < 3 || corners > text.size()) {
-        text.fail("a face with " + std::to_string(corners) + " corners; expected 3 or more");
+    if (corners < 1 || corners > text.size()) {
+        text.fail("a face with " + std::to_string(corners) + " corners; expected 1 or more");
     }
     std::vector<std::uint32_t> polygon;
     for (std::int64_t i = 0; i < corners; ++i) {
         polygon.push_back(text.index(text.word(), points));
     }
-    return polygon;
+    if (corners < 3) {
+        builder.leave_out(corners == 2 ? CellKind::Line : CellKind::Point);
+    } else {
+        builder.add_polygon(polygon);
+    }
 }
 
 // The keyword is OFF behind letters for what each line of a point has: texture (ST), color (C),
@@ -71,7 +76,7 @@ TriangleSoup read_off(const std::filesystem::path& path) {
     }
     for (std::int64_t i = 0; i < faces; ++i) {
         next_line(text, "a face");
-        builder.add_polygon(read_polygon(text, points));
+        read_face(text, points, builder);
     }
     return builder.soup();
 }

@@ -112,6 +112,15 @@ public:
         return 0;
     }
 
+    // Passes a value that nothing is made of, which may be no finite number.
+    void skip(PlyType type) {
+        if (numbers_.is_text()) {
+            static_cast<void>(text_.next_word("a value"));
+        } else {
+            static_cast<void>(next(type));
+        }
+    }
+
     // A whole number from 0 up to and without `end`.
     std::int64_t next_below(PlyType type, std::int64_t end, const std::string& what) {
         const double value = next(type);
@@ -129,15 +138,37 @@ private:
     NumberReader numbers_;
 };
 
-void read_vertex(const PlyElement& element, Values& values, SoupBuilder& builder) {
+// Reads a list; its values are left in `corners` if they are those of a polygon.
+void read_list(const PlyProperty& property,
+               Values& values,
+               std::int64_t points,
+               std::int64_t longest,
+               std::vector<std::uint32_t>* corners) {
+    const std::int64_t count = values.next_below(*property.count_type, longest, "a list of length");
+    for (std::int64_t i = 0; i < count; ++i) {
+        if (corners != nullptr) {
+            corners->push_back(
+                static_cast<std::uint32_t>(values.next_below(property.type, points, "a corner")));
+        } else {
+            values.skip(property.type);
+        }
+    }
+}
+
+void read_vertex(const PlyElement& element,
+                 Values& values,
+                 std::int64_t longest,
+                 SoupBuilder& builder) {
     Eigen::Vector3d point = Eigen::Vector3d::Zero();
     for (const PlyProperty& property : element.properties) {
+        const bool is_coordinate =
+            property.name.size() == 1 && property.name[0] >= 'x' && property.name[0] <= 'z';
         if (property.count_type) {
-            values.fail("a list among the properties of vertex; expected single values");
-        }
-        const double value = values.next(property.type);
-        if (property.name.size() == 1 && property.name[0] >= 'x' && property.name[0] <= 'z') {
-            point[property.name[0] - 'x'] = value;
+            read_list(property, values, 0, longest, nullptr);
+        } else if (is_coordinate) {
+            point[property.name[0] - 'x'] = values.next(property.type);
+        } else {
+            values.skip(property.type);
         }
     }
     if (!point.allFinite()) {
@@ -156,22 +187,13 @@ void read_row(const PlyElement& element,
     polygon.clear();
     for (const PlyProperty& property : element.properties) {
         if (!property.count_type) {
-            static_cast<void>(values.next(property.type));
+            values.skip(property.type);
             continue;
         }
         const bool is_polygon =
             element.name == "face"
             && (property.name == "vertex_indices" || property.name == "vertex_index");
-        const std::int64_t count =
-            values.next_below(*property.count_type, longest, "a list of length");
-        for (std::int64_t i = 0; i < count; ++i) {
-            if (is_polygon) {
-                polygon.push_back(static_cast<std::uint32_t>(
-                    values.next_below(property.type, points, "a corner")));
-            } else {
-                static_cast<void>(values.next(property.type));
-            }
-        }
+        read_list(property, values, points, longest, is_polygon ? &polygon : nullptr);
     }
 }
 
@@ -192,7 +214,7 @@ TriangleSoup read_ply(const std::filesystem::path& path) {
         }
         for (std::uint64_t row = 0; row < element.count; ++row) {
             if (element.name == "vertex") {
-                read_vertex(element, values, builder);
+                read_vertex(element, values, text.size(), builder);
                 continue;
             }
             if (element.name == "edge") {

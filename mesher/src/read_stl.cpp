@@ -30,10 +30,19 @@ bool is_binary(std::string_view bytes) {
     return bytes.size() >= kHeader && bytes.size() == binary_length(bytes);
 }
 
+// A keyword, which some programs write in capitals.
+std::string keyword_of(TextReader& text) {
+    std::string word(text.word());
+    for (char& c : word) {
+        c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+    }
+    return word;
+}
+
 // Whether a file that has another length than its header says is binary nevertheless.
-bool has_binary_header(std::string_view bytes) {
+bool has_binary_header(TextReader text, std::string_view bytes) {
     return bytes.size() >= kHeader
-           && (!bytes.starts_with("solid")
+           && (!text.next_line() || keyword_of(text) != "solid"
                || bytes.substr(0, kHeader).find('\0') != std::string_view::npos);
 }
 
@@ -61,14 +70,14 @@ TriangleSoup read_binary(std::string_view bytes, const std::string& name) {
 }
 
 TriangleSoup read_text(TextReader& text) {
-    if (!text.next_line() || text.word() != "solid") {
+    if (!text.next_line() || keyword_of(text) != "solid") {
         text.fail("no \"solid\" at the start, and too short to be binary; expected an STL file");
     }
     SoupBuilder builder;
     std::int64_t corners = 0;  // of the loop that is open
     bool is_open = true;       // from solid to endsolid
     while (text.next_line()) {
-        const std::string_view keyword = text.word();
+        const std::string keyword = keyword_of(text);
         if (keyword == "vertex") {
             builder.add_point(text.point());
             ++corners;
@@ -96,13 +105,14 @@ TriangleSoup read_stl(const std::filesystem::path& path) {
     if (is_binary(bytes)) {
         return read_binary(bytes, text.name());
     }
-    if (has_binary_header(bytes)) {
+    if (has_binary_header(text, bytes)) {
         const std::size_t length = binary_length(bytes);
-        throw Error(text.name() + ": " + std::to_string(bytes.size())
-                    + " bytes; expected " + std::to_string(length) + " for the "
+        throw Error(text.name() + ": " + std::to_string(bytes.size()) + " bytes; expected "
+                    + std::to_string(length) + " for the "
                     + std::to_string((length - kHeader) / kTriangle)
-                    + " triangles that a binary STL file announces; it may have been cut off,"
-                      " write it again");
+                    + " triangles that a binary STL file announces; it "
+                    + (bytes.size() < length ? "may have been cut off" : "goes on behind them")
+                    + ", write it again");
     }
     return read_text(text);
 }

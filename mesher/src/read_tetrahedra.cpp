@@ -1,4 +1,6 @@
+#include "carried_arrays.h"
 #include "cut_cells.h"
+#include "spacetime/moving_fields.h"
 #include "tet_readers.h"
 
 #include <pent/error.h>
@@ -15,23 +17,13 @@ namespace pent::mesher {
 
 namespace {
 
-// By the path, and the array of VTK's cells that has their labels.
-using Reader = CellSoup (*)(const std::filesystem::path&, const std::string&);
+using Reader = CellSoup (*)(const std::filesystem::path&);
 
-// Other formats have one place for labels.
-template <CellSoup (*read)(const std::filesystem::path&)>
-CellSoup without_arrays(const std::filesystem::path& path, const std::string& /*region_array*/) {
-    return read(path);
-}
-
-constexpr std::array<std::pair<std::string_view, Reader>, 7> kReaders = {
-    {{".node", without_arrays<read_tetgen>},
-     {".ele", without_arrays<read_tetgen>},
-     {".mesh", without_arrays<read_medit>},
-     {".msh", without_arrays<read_gmsh>},
-     {".vtk", read_vtk},
-     {".vtu", read_vtu},
-     {".tobj", without_arrays<read_tobj>}}};
+constexpr std::array<std::pair<std::string_view, Reader>, 5> kReaders = {{{".node", read_tetgen},
+                                                                          {".ele", read_tetgen},
+                                                                          {".mesh", read_medit},
+                                                                          {".msh", read_gmsh},
+                                                                          {".tobj", read_tobj}}};
 
 Reader reader_for(const std::filesystem::path& path, const std::string& format) {
     const std::string ending = format_of(path, format);
@@ -51,6 +43,63 @@ std::uint16_t region_of(std::int64_t label, const std::string& name) {
     return static_cast<std::uint16_t>(label);
 }
 
+// The values of arrays that are finite, as quantities.
+std::vector<VertexField> fields_of(const std::vector<VtkArray>& arrays,
+                                   const CarriedArrays& carried,
+                                   const std::vector<std::int64_t>& tuples,
+                                   std::vector<std::string>& left_out) {
+    std::vector<VertexField> fields;
+    for (std::size_t i = 0; i < carried.arrays.size(); ++i) {
+        Eigen::MatrixXd values = values_at(*find_array(arrays, carried.arrays[i]), tuples);
+        if (values.allFinite()) {
+            fields.push_back({carried.names[i], std::move(values)});
+        } else {
+            left_out.push_back("array " + carried.arrays[i] + ", which is not finite everywhere");
+        }
+    }
+    return fields;
+}
+
+// Gives the mesh what the arrays of its points and cells have.
+void carry_arrays(const VtkGrid& grid, const NumberedTetrahedra& numbered, TetrahedraFile& file) {
+    std::vector<std::string> left_out;
+    const CarriedArrays of_points = carried_point_arrays(grid, left_out);
+    const CarriedArrays of_cells = carried_cell_arrays(grid, file.region_array, left_out);
+    const std::vector<std::int64_t> points(numbered.points.begin(), numbered.points.end());
+    std::vector<std::int64_t> cells;
+    for (const std::uint32_t cell : numbered.cells) {
+        cells.push_back(grid.solid_cells[cell]);
+    }
+    file.extras.vertex_fields = fields_of(grid.point_arrays, of_points, points, left_out);
+    for (VertexField& field : fields_of(grid.cell_arrays, of_cells, cells, left_out)) {
+        const bool is_fiber = is_fiber_name(field.name) && field.values.rows() == 3;
+        if (is_fiber && file.mesh.fibers.cols() == 0) {
+            file.mesh.fibers = std::move(field.values);
+        } else {
+            file.extras.cell_fields.push_back(std::move(field));
+        }
+    }
+    for (const std::string& one : left_out) {
+        file.left_out += (file.left_out.empty() ? "" : ", ") + one;
+    }
+}
+
+TetrahedraFile read_from_grid(const std::filesystem::path& path,
+                              const std::string& format,
+                              const std::string& asked) {
+    VtkGrid grid = read_grid(path, format);
+    std::string region_name;
+    if (const VtkArray* regions = region_array(grid, asked, path)) {
+        region_name = regions->name;
+        label_cells(grid, *regions);
+    }
+    NumberedTetrahedra numbered = number_tetrahedra(grid.soup, input_name(path));
+    TetrahedraFile file = std::move(numbered.file);
+    file.region_array = region_name;
+    carry_arrays(grid, numbered, file);
+    return file;
+}
+
 }  // namespace
 
 bool has_region_arrays(const std::filesystem::path& path, const std::string& format) {
@@ -59,7 +108,7 @@ bool has_region_arrays(const std::filesystem::path& path, const std::string& for
 }
 
 bool is_tetrahedra_file(const std::filesystem::path& path, const std::string& format) {
-    return reader_for(path, format) != nullptr;
+    return has_region_arrays(path, format) || reader_for(path, format) != nullptr;
 }
 
 NumberedTetrahedra number_tetrahedra(const CellSoup& soup, const std::string& name) {
@@ -71,8 +120,11 @@ NumberedTetrahedra number_tetrahedra(const CellSoup& soup, const std::string& na
     file.curved_cells = soup.curved_cells;
     file.turned_cells = cut.turned_cells;
     if (cut.tets.empty()) {
+        const bool is_surface =
+            !list_counts(soup.counts, CellKind::Triangle, CellKind::Polygon).empty();
         throw Error(name + ": no tetrahedron in it nor another cell of three dimensions"
-                    + (file.left_out.empty() ? "" : ", but " + file.left_out));
+                    + (file.left_out.empty() ? "" : ", but " + file.left_out)
+                    + (is_surface ? "; write a surface as .ply, .stl, .obj or .off" : ""));
     }
     std::vector<std::uint32_t> names(soup.points.size(), 0);
     for (const auto& tet : cut.tets) {
@@ -111,12 +163,15 @@ TetrahedraFile read_tetrahedra(const std::filesystem::path& path,
                                const std::string& region_array) {
     const std::string name = input_name(path);
     require_file(path);
+    if (has_region_arrays(path, format)) {
+        return read_from_grid(path, format, region_array);
+    }
     const Reader reader = reader_for(path, format);
     if (reader == nullptr) {
         throw Error(name
                     + ": tetrahedra are in .node and .ele, .mesh, .msh, .vtk, .vtu or .tobj files");
     }
-    return number_tetrahedra(reader(path, region_array), name).file;
+    return number_tetrahedra(reader(path), name).file;
 }
 
 }  // namespace pent::mesher

@@ -1,4 +1,3 @@
-#include "tet_readers.h"
 #include "vtk_data.h"
 #include "vtk_grid.h"
 
@@ -24,19 +23,14 @@ public:
           file_(parse_xml(text_, name_)),
           encoding_(encoding_of(file_, name_, text_.size())) {}
 
-    // All arrays, those of the cells, or of these those alone that may have the regions.
-    enum class Arrays { All, OfCells, OfRegions };
-
-    VtkGrid read(Arrays arrays) {
+    VtkGrid read() {
         const XmlElement& piece = find_piece();
         const std::int64_t points = count_of(piece, "NumberOfPoints");
         const std::int64_t cells = count_of(piece, "NumberOfCells");
         read_points(piece, points);
         read_cells(piece, cells);
-        if (arrays == Arrays::All) {
-            read_arrays(piece.child("PointData"), points, true, grid_.point_arrays);
-        }
-        read_arrays(piece.child("CellData"), cells, arrays != Arrays::OfRegions, grid_.cell_arrays);
+        read_arrays(piece.child("PointData"), points, grid_.point_arrays);
+        read_arrays(piece.child("CellData"), cells, grid_.cell_arrays);
         return std::move(grid_);
     }
 
@@ -133,19 +127,15 @@ private:
         }
     }
 
-    void read_arrays(const XmlElement* data,
-                     std::int64_t count,
-                     bool with_quantities,
-                     std::vector<VtkArray>& arrays) {
+    void read_arrays(const XmlElement* data, std::int64_t count, std::vector<VtkArray>& arrays) {
         if (data == nullptr) {
             return;
         }
         for (const XmlElement& array : data->children) {
-            const std::string name(array.attribute("Name"));
-            if (has_numbers(array) && (with_quantities || is_region_name(name))) {
+            if (has_numbers(array)) {
                 const std::int64_t components = components_of(array, encoding_);
-                arrays.push_back(
-                    {name, components, reals_of(array, encoding_, components * count)});
+                arrays.push_back({std::string(array.attribute("Name")), components,
+                                  reals_of(array, encoding_, components * count)});
             }
         }
     }
@@ -159,14 +149,8 @@ private:
 
 }  // namespace
 
-CellSoup read_vtu(const std::filesystem::path& path, const std::string& regions) {
-    using Arrays = VtuReader::Arrays;
-    const Arrays arrays = regions.empty() ? Arrays::OfRegions : Arrays::OfCells;
-    return labeled_soup(VtuReader(path).read(arrays), regions, path);
-}
-
 VtkGrid read_vtu_grid(const std::filesystem::path& path) {
-    return VtuReader(path).read(VtuReader::Arrays::All);
+    return VtuReader(path).read();
 }
 
 }  // namespace pent::mesher

@@ -205,6 +205,48 @@ struct NewPoint {
     std::array<int, Dim + 1> weights;            // of each, adding to k
 };
 
+template <int Dim>
+std::vector<NewPoint<Dim>> new_points(const SimplexMesh<Dim>& mesh,
+                                      const Pattern<Dim>& pattern,
+                                      const std::vector<std::uint64_t>& first_places) {
+    std::vector<NewPoint<Dim>> points;
+    for (const std::uint64_t place : first_places) {
+        bool is_odd = false;
+        points.push_back(
+            {sorted_corners(mesh, static_cast<Eigen::Index>(place / pattern.weights.size()),
+                            is_odd),
+             pattern.weights[place % pattern.weights.size()]});
+    }
+    return points;
+}
+
+// What vertices have, a column each, and linear between them what new points get.
+template <int Dim>
+Eigen::MatrixXd spread(const Eigen::MatrixXd& values,
+                       const std::vector<NewPoint<Dim>>& points,
+                       int k) {
+    Eigen::MatrixXd all(values.rows(), values.cols() + static_cast<Eigen::Index>(points.size()));
+    all.leftCols(values.cols()) = values;
+    Eigen::Index next = values.cols();
+    for (const NewPoint<Dim>& point : points) {
+        Eigen::VectorXd sum = Eigen::VectorXd::Zero(values.rows());
+        for (int c = 0; c <= Dim; ++c) {
+            sum += point.weights[c] * values.col(point.corners[c]);
+        }
+        all.col(next++) = sum / k;
+    }
+    return all;
+}
+
+// What cells have, for the cells of each, which follow one another.
+Eigen::MatrixXd repeat(const Eigen::MatrixXd& values, Eigen::Index children) {
+    Eigen::MatrixXd all(values.rows(), values.cols() * children);
+    for (Eigen::Index cell = 0; cell < all.cols(); ++cell) {
+        all.col(cell) = values.col(cell / children);
+    }
+    return all;
+}
+
 // Where mesh has columns and layers: a vertex keeps its column and is in layer k times its own. A
 // new point is in the column that the columns of its corners name by their weights, as a point of
 // the base mesh is named by vertices, and in the layer that its corners' layers add up to.
@@ -254,23 +296,8 @@ SimplexMesh<Dim> subdivide(const SimplexMesh<Dim>& mesh, int k) {
     const std::vector<std::uint32_t> numbers =
         number_points<Dim>(mesh, name_points(mesh, pattern), first_places);
     SimplexMesh<Dim> fine;
-    fine.positions.resize(Dim,
-                          mesh.vertex_count() + static_cast<Eigen::Index>(first_places.size()));
-    fine.positions.leftCols(mesh.vertex_count()) = mesh.positions;
-    std::vector<NewPoint<Dim>> points;
-    for (const std::uint64_t place : first_places) {
-        const auto cell = static_cast<Eigen::Index>(place) / per_cell;
-        bool is_odd = false;
-        const NewPoint<Dim> point{sorted_corners(mesh, cell, is_odd),
-                                  pattern.weights[place % pattern.weights.size()]};
-        Eigen::Matrix<double, Dim, 1> sum = Eigen::Matrix<double, Dim, 1>::Zero();
-        for (int c = 0; c <= Dim; ++c) {
-            sum += point.weights[c] * mesh.positions.col(point.corners[c]);
-        }
-        fine.positions.col(mesh.vertex_count() + static_cast<Eigen::Index>(points.size())) =
-            sum / k;
-        points.push_back(point);
-    }
+    const std::vector<NewPoint<Dim>> points = new_points(mesh, pattern, first_places);
+    fine.positions = spread<Dim>(mesh.positions, points, k);
     hand_down_columns(mesh, points, k, fine);
     const auto children = static_cast<Eigen::Index>(pattern.cells.size());
     fine.cells.resize(Dim + 1, mesh.cell_count() * children);
@@ -291,10 +318,29 @@ SimplexMesh<Dim> subdivide(const SimplexMesh<Dim>& mesh, int k) {
         fine.regions.insert(fine.regions.end(), children, region);
     }
     if (mesh.fibers.cols() > 0) {
-        fine.fibers.resize(Dim, fine.cell_count());
-        for (Eigen::Index cell = 0; cell < fine.cell_count(); ++cell) {
-            fine.fibers.col(cell) = mesh.fibers.col(cell / children);
-        }
+        fine.fibers = repeat(mesh.fibers, children);
+    }
+    return fine;
+}
+
+template <int Dim>
+MeshExtras<Dim> subdivide_fields(const SimplexMesh<Dim>& mesh,
+                                 const MeshExtras<Dim>& fields,
+                                 int k) {
+    MeshExtras<Dim> fine;
+    if (fields.vertex_fields.empty() && fields.cell_fields.empty()) {
+        return fine;
+    }
+    const Pattern<Dim> pattern = pattern_for<Dim>(k);
+    std::vector<std::uint64_t> first_places;
+    static_cast<void>(number_points<Dim>(mesh, name_points(mesh, pattern), first_places));
+    const std::vector<NewPoint<Dim>> points = new_points(mesh, pattern, first_places);
+    for (const VertexField& field : fields.vertex_fields) {
+        fine.vertex_fields.push_back({field.name, spread<Dim>(field.values, points, k)});
+    }
+    const auto children = static_cast<Eigen::Index>(pattern.cells.size());
+    for (const VertexField& field : fields.cell_fields) {
+        fine.cell_fields.push_back({field.name, repeat(field.values, children)});
     }
     return fine;
 }
@@ -315,16 +361,12 @@ std::vector<std::array<std::uint32_t, 2>> cut_edges(const SimplexMesh<Dim>& mesh
     std::vector<std::uint64_t> first_places;
     static_cast<void>(number_points<Dim>(mesh, name_points(mesh, pattern), first_places));
     std::vector<std::array<std::uint32_t, 2>> edges;
-    for (const std::uint64_t place : first_places) {
-        bool is_odd = false;
-        const auto corners =
-            sorted_corners(mesh, static_cast<Eigen::Index>(place / pattern.weights.size()), is_odd);
-        const auto& weights = pattern.weights[place % pattern.weights.size()];
+    for (const NewPoint<Dim>& point : new_points(mesh, pattern, first_places)) {
         std::array<std::uint32_t, 2> edge{};
         int end = 0;
         for (int c = 0; c <= Dim; ++c) {
-            if (weights[c] > 0) {
-                edge[end++] = corners[c];
+            if (point.weights[c] > 0) {
+                edge[end++] = point.corners[c];
             }
         }
         edges.push_back(edge);
@@ -335,6 +377,8 @@ std::vector<std::array<std::uint32_t, 2>> cut_edges(const SimplexMesh<Dim>& mesh
 template SimplexMesh<2> subdivide<2>(const SimplexMesh<2>&, int);
 template SimplexMesh<3> subdivide<3>(const SimplexMesh<3>&, int);
 template SimplexMesh<4> subdivide<4>(const SimplexMesh<4>&, int);
+template MeshExtras<3> subdivide_fields<3>(const SimplexMesh<3>&, const MeshExtras<3>&, int);
+template MeshExtras<4> subdivide_fields<4>(const SimplexMesh<4>&, const MeshExtras<4>&, int);
 template SimplexMesh<3> make_quadratic<3>(const SimplexMesh<3>&);
 template SimplexMesh<4> make_quadratic<4>(const SimplexMesh<4>&);
 template std::vector<std::array<std::uint32_t, 2>> cut_edges<3>(const SimplexMesh<3>&);

@@ -30,8 +30,4 @@ struct NumberedTetrahedra {
 [[nodiscard]] CellSoup read_gmsh(const std::filesystem::path& path);
 [[nodiscard]] CellSoup read_tobj(const std::filesystem::path& path);
 
-/// @param regions  The array of cells with their labels; empty: the first of a usual name.
-[[nodiscard]] CellSoup read_vtk(const std::filesystem::path& path, const std::string& regions);
-[[nodiscard]] CellSoup read_vtu(const std::filesystem::path& path, const std::string& regions);
-
 }  // namespace pent::mesher

@@ -68,11 +68,30 @@ constexpr std::array<std::pair<std::int64_t, CellKind>, 50> kTypes = {{
     {81, CellKind::Pyramid},
     {0, CellKind::Point},  // empty
 }};
-constexpr std::array<std::string_view, 8> kRegionNames = {
-    "region",        "regions",   "material",      "attribute",
-    "gmsh:physical", "medit:ref", "CellEntityIds", "PhysicalIds"};
+// What programs call the labels of cells, without case and separators, those first that say most:
+// ours and MFEM; FreeFem; Gmsh and meshio from Gmsh, Medit, TetGen, Nastran, Netgen, SU2, AVS, MED;
+// OpenGeoSys; Exodus in ParaView; Elmer; openCARP. The number of a volume is what a file of Gmsh
+// without groups has.
+constexpr std::array<std::string_view, 28> kRegionNames = {
+    "region",          "regions",       "regionid",        "regionids",       "material",
+    "materials",       "materialid",    "materialids",     "attribute",       "attributes",
+    "label",           "labels",        "gmsh:physical",   "medit:ref",       "tetgen:ref",
+    "nastran:ref",     "netgen:index",  "su2:tag",         "avsucd:material", "celltags",
+    "elementblockids", "objectid",      "physicalids",     "geometryids",     "elemtag",
+    "refid",           "cellentityids", "gmsh:geometrical"};
 constexpr std::int64_t kEmpty = 0;
 constexpr std::int64_t kVoxel = 11;
+
+// A name as kRegionNames has it.
+std::string plain(std::string_view name) {
+    std::string result;
+    for (const char c : name) {
+        if (c != '_' && c != '-' && c != ' ') {
+            result += c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+        }
+    }
+    return result;
+}
 
 CellKind kind_of(std::int64_t number, const Fail& fail) {
     for (const auto& [known, kind] : kTypes) {
@@ -159,10 +178,6 @@ const VtkArray* find_array(const std::vector<VtkArray>& arrays, std::string_view
     return nullptr;
 }
 
-bool is_region_name(std::string_view name) {
-    return std::find(kRegionNames.begin(), kRegionNames.end(), name) != kRegionNames.end();
-}
-
 std::optional<std::uint16_t> label_of(const VtkArray& array, std::int64_t cell) {
     const double value = array.values[static_cast<std::size_t>(cell)];
     if (!(value >= 0 && value <= std::numeric_limits<std::uint16_t>::max())
@@ -178,12 +193,16 @@ const VtkArray* region_array(const VtkGrid& grid,
     if (!asked.empty()) {
         return &array_asked_for(grid, asked, path);
     }
+    const auto has_labels = [&](const VtkArray& array) {
+        return array.components == 1
+               && std::all_of(grid.solid_cells.begin(), grid.solid_cells.end(),
+                              [&](std::int64_t cell) { return label_of(array, cell).has_value(); });
+    };
     for (const std::string_view name : kRegionNames) {
-        const VtkArray* found = find_array(grid.cell_arrays, name);
-        if (found != nullptr && found->components == 1
-            && std::all_of(grid.solid_cells.begin(), grid.solid_cells.end(),
-                           [&](std::int64_t cell) { return label_of(*found, cell).has_value(); })) {
-            return found;
+        for (const VtkArray& array : grid.cell_arrays) {
+            if (plain(array.name) == name && has_labels(array)) {
+                return &array;
+            }
         }
     }
     return nullptr;
@@ -196,11 +215,8 @@ void label_cells(VtkGrid& grid, const VtkArray& regions) {
     }
 }
 
-CellSoup labeled_soup(VtkGrid grid, const std::string& asked, const std::filesystem::path& path) {
-    if (const VtkArray* regions = region_array(grid, asked, path)) {
-        label_cells(grid, *regions);
-    }
-    return std::move(grid.soup);
+VtkGrid read_grid(const std::filesystem::path& path, const std::string& format) {
+    return format_of(path, format) == ".vtu" ? read_vtu_grid(path) : read_vtk_grid(path);
 }
 
 }  // namespace pent::mesher

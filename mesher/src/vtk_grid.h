@@ -45,14 +45,11 @@ void add_cell(VtkGrid& grid,
 [[nodiscard]] const VtkArray* find_array(const std::vector<VtkArray>& arrays,
                                          std::string_view name);
 
-/// Whether an array of cells with this name has their labels, usually.
-[[nodiscard]] bool is_region_name(std::string_view name);
-
 /// The label of a cell of the file: a whole number from 0 to 65535, else nothing.
 [[nodiscard]] std::optional<std::uint16_t> label_of(const VtkArray& array, std::int64_t cell);
 
-/// The array with the labels of the cells: the one asked for, else the first with a usual name and
-/// a label of every cell of three dimensions; null if there is none.
+/// The array with the labels of the cells: the one asked for, else the first with a usual name,
+/// in whatever case, and a label of every cell of three dimensions; null if there is none.
 /// Throws an Error if that asked for is not there or has other numbers than labels.
 [[nodiscard]] const VtkArray* region_array(const VtkGrid& grid,
                                            const std::string& asked,
@@ -61,11 +58,6 @@ void add_cell(VtkGrid& grid,
 /// Gives the cells of the soup the labels that region_array() found.
 void label_cells(VtkGrid& grid, const VtkArray& regions);
 
-/// The cells with the labels that region_array() found, if any.
-[[nodiscard]] CellSoup labeled_soup(VtkGrid grid,
-                                    const std::string& asked,
-                                    const std::filesystem::path& path);
-
 /// Reads an unstructured grid with its arrays of numbers, of a legacy file (.vtk) or an XML file
 /// (.vtu).
 ///
@@ -73,5 +65,8 @@ void label_cells(VtkGrid& grid, const VtkArray& regions);
 /// not finite; allocates no more than the size of the file bears out.
 [[nodiscard]] VtkGrid read_vtk_grid(const std::filesystem::path& path);
 [[nodiscard]] VtkGrid read_vtu_grid(const std::filesystem::path& path);
+
+/// The same by the format, as in "vtu", or by the ending of the name where there is none.
+[[nodiscard]] VtkGrid read_grid(const std::filesystem::path& path, const std::string& format = {});
 
 }  // namespace pent::mesher

@@ -68,6 +68,13 @@ TEST_F(PentConvert, SaysWhatAFormatHasNoPlaceFor) {
                     {"left out   fibers, heat, age: MFEM mesh has no place"});
 }
 
+TEST_F(PentConvert, WritesIntoFoldersThatItMakes) {
+    const Outcome made = convert("box.pent", "new/sub/box.g4b", "--json " + at("reports/a.json"));
+    EXPECT_EQ(made.exit_code, 0) << made.err;
+    EXPECT_TRUE(std::filesystem::exists(folder_ / "new/sub/box.g4b"));
+    EXPECT_TRUE(std::filesystem::exists(folder_ / "reports/a.json"));
+}
+
 TEST_F(PentConvert, GoesFromABodyToItsBoundaryAndBack) {
     const Outcome there = convert("box.pent", "box.g4b", "--json " + at("report.json"));
     EXPECT_EQ(there.exit_code, 0) << there.err;

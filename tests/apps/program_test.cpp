@@ -9,7 +9,7 @@
 namespace pent::apps {
 namespace {
 
-constexpr std::array<const char*, 3> kCommand = {"pent-try", "--json", "/no/such/folder/a.json"};
+constexpr std::array<const char*, 3> kCommand = {"pent-try", "--json", "/dev/null/folder/a.json"};
 
 Program program() {
     return {"pent-try", "Tries things", "pent-try"};
@@ -36,7 +36,7 @@ TEST(Program, IsRefusedWhereItsReportCannotBeWritten) {
     Program tried = program();
     testing::internal::CaptureStderr();
     EXPECT_EQ(tried.run(3, kCommand.data(), [] { return Verdict::Finished; }), 1);
-    EXPECT_NE(testing::internal::GetCapturedStderr().find("/no/such/folder"), std::string::npos);
+    EXPECT_NE(testing::internal::GetCapturedStderr().find("/dev/null/folder"), std::string::npos);
 }
 
 TEST(Program, AbandonedSaysSoAndThatItsReportCannotBeWritten) {
@@ -45,7 +45,7 @@ TEST(Program, AbandonedSaysSoAndThatItsReportCannotBeWritten) {
                     3, kCommand.data(),
                     [&]() -> Verdict { tried.abandon(Verdict::Stopped, "stopped as asked"); })),
                 testing::ExitedWithCode(3),
-                "pent-try: stopped as asked\npent-try: /no/such/folder");
+                "pent-try: stopped as asked\npent-try: /dev/null/folder");
 }
 
 }  // namespace

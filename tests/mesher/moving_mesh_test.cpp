@@ -10,6 +10,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <filesystem>
 #include <limits>
@@ -90,6 +92,41 @@ TEST(ReadMovingMesh, ReadsARunFolderOfThreeDimensions) {
     test::expect_contains(
         test::error_of([&] { static_cast<void>(read_moving_mesh(folder.path())); }),
         {"a.pent: has dimension 4"});
+}
+
+TEST(ReadMovingMesh, CarriesTheNumbersOfAMeshThatRan) {
+    const test::TempFolder folder;
+    fs::create_directories(folder / "meshes");
+    fs::create_directories(folder / "frames");
+    const SimplexMesh<3> mesh = ball(1);
+    MeshExtras<3> extras;
+    extras.vertex_fields = {{"age", Eigen::RowVectorXd::LinSpaced(mesh.vertex_count(), 0, 1)},
+                            {"heat", Eigen::MatrixXd::Zero(1, mesh.vertex_count())},
+                            {"flow", mesh.positions}};
+    extras.cell_fields = {{"stiffness", Eigen::RowVectorXd::LinSpaced(mesh.cell_count(), 1, 2)},
+                          {"lean", Eigen::MatrixXd::Zero(3, mesh.cell_count())}};
+    const std::uint32_t crc = write_mesh<3>(folder / "meshes" / "a.pent", mesh, {}, extras);
+    for (int i = 0; i < 2; ++i) {
+        Frame<3> frame;
+        frame.positions = mesh.positions * (1 + i);
+        frame.mesh_name = "a.pent";
+        frame.mesh_crc = crc;
+        frame.time = i;
+        frame.fields.push_back({"heat", Eigen::MatrixXd::Constant(1, mesh.vertex_count(), 5 + i)});
+        write_frame(folder / "frames" / frame_file_name("a", i), frame);
+    }
+    const MovingMesh moving = read_moving_mesh(folder.path());
+    EXPECT_EQ(moving.left_out, "vector flow of the mesh, vector lean of the mesh");
+    ASSERT_EQ(moving.vertex_fields.size(), 2U);
+    EXPECT_EQ(moving.vertex_fields[0].name, "heat");
+    EXPECT_EQ(moving.vertex_fields[0].values[1](0, 3), 6);  // of the frame, not of the mesh
+    EXPECT_EQ(moving.vertex_fields[1].name, "age");
+    ASSERT_EQ(moving.cell_fields.size(), 1U);
+    EXPECT_EQ(moving.cell_fields[0].name, "stiffness");
+    for (int frame = 0; frame < 2; ++frame) {
+        EXPECT_EQ(moving.vertex_fields[1].values[frame], extras.vertex_fields[0].values);
+        EXPECT_EQ(moving.cell_fields[0].values[frame], extras.cell_fields[0].values);
+    }
 }
 
 // A run of a body with fibers along x, which turns around z, by the angle of the triangle of sides
@@ -198,6 +235,16 @@ TEST(ReadMovingMesh, GivesQuantitiesNamesByWhichAFileTellsThemApart) {
             EXPECT_EQ(file.extras.cell_fields.size() + (file.mesh.fibers.cols() > 0 ? 1 : 0), 2U);
             EXPECT_TRUE(has_fibers || file.mesh.fibers.cols() == 0);
         }
+    }
+}
+
+TEST(ReadMovingMesh, TakesTheFirstFibersAndRenamesThoseBehindOthers) {
+    const test::TempFolder folder;
+    for (const auto& names : {std::vector<std::string>{"fibers", "u", "fiber"},
+                              std::vector<std::string>{"fiber", "u:1", "fibers"}}) {
+        const MeshFile<4> file = written_with(folder, names, {});
+        EXPECT_EQ(file.mesh.fibers(0, 0), 1);  // the first number of all
+        EXPECT_EQ(file.extras.cell_fields.size(), 2U);
     }
 }
 
@@ -438,20 +485,95 @@ TEST(ReadVtk, ReadsEveryKindOfArrayInFrontOfTheRegions) {
     EXPECT_EQ(read_tetrahedra(folder / "a.vtk").mesh.regions, (std::vector<std::uint16_t>{3, 4}));
 }
 
+// As VTK does: FreeFem writes "Scalars".
+TEST(ReadVtk, KnowsKeywordsAndTypesInAnyLetters) {
+    const test::TempFolder folder;
+    const std::string mesh =
+        test::to_legacy_vtk({rich_parts(0).points, rich_parts(0).tetrahedra, {}, {}, {}, {}});
+    const std::string text = mesh
+                             + "CELL_DATA 2\nSCALARS Label int 1\nLOOKUP_TABLE table\n3\n4\n"
+                               "LOOKUP_TABLE table 1\n0 0 0 1\n"
+                               "POINT_DATA 5\nFIELD f 1\nheat 1 5 double\n1 2 3 4 5\n";
+    std::string small = text;
+    std::transform(text.begin(), text.end(), small.begin(), ::tolower);
+    std::string capitals = text;
+    std::transform(text.begin(), text.end(), capitals.begin(), ::toupper);
+    for (const std::string& one : {text, small, capitals}) {
+        test::write_file(folder / "a.vtk", one);
+        const TetrahedraFile file = read_tetrahedra(folder / "a.vtk");
+        EXPECT_EQ(file.mesh.regions, (std::vector<std::uint16_t>{3, 4}));
+        ASSERT_EQ(file.extras.vertex_fields.size(), 1U);
+        EXPECT_EQ(file.extras.vertex_fields[0].values(0, 4), 5);
+    }
+}
+
+// As a count that is too small leaves.
+TEST(ReadVtk, RefusesWhatStandsBetweenItsParts) {
+    const test::TempFolder folder;
+    std::string text =
+        test::to_legacy_vtk({rich_parts(0).points, rich_parts(0).tetrahedra, {}, {}, {}, {}});
+    text.insert(text.find("CELLS"), "7 7 7\n");
+    test::write_file(folder / "a.vtk", text);
+    test::expect_contains(
+        test::error_of([&] { static_cast<void>(read_tetrahedra(folder / "a.vtk")); }),
+        {"a.vtk: line 11: found \"7\", expected DATASET, FIELD, POINTS, CELLS"});
+    text.erase(text.find("7 7 7\n"), 6);
+    test::write_file(folder / "a.vtk", text + "CELL_DATA 2\nSCALARS region int\n3\n4\n");
+    test::expect_contains(
+        test::error_of([&] { static_cast<void>(read_tetrahedra(folder / "a.vtk")); }),
+        {"a.vtk: line ", "found \"3\", expected LOOKUP_TABLE"});
+}
+
+// Those of the file itself stand in front of its points, strings among them.
+TEST(ReadVtk, PassesOverArraysOfTheFile) {
+    const test::TempFolder folder;
+    using namespace std::string_literals;
+    std::string text =
+        test::to_legacy_vtk({rich_parts(0).points, rich_parts(0).tetrahedra, {}, {}, {}, {}});
+    text.insert(text.find("POINTS"),
+                "FIELD FieldData 3\nTIME 1 1 double\n0.5\nMETADATA\nINFORMATION 0\n\n"
+                "name 1 2 string\nPOINTS 3\nright\nbox 3 2 int\n1 2 3 4 5 6\n\n");
+    text.insert(text.find("CELLS"), "METADATA\nINFORMATION 1\nNAME L2 LOCATION vtkDataArray\n\n");
+    test::write_file(folder / "a.vtk", text);
+    EXPECT_EQ(read_tetrahedra(folder / "a.vtk").mesh.cell_count(), 2);
+    test::write_file(folder / "a.vtk", text + "METADATA\nINFORMATION 0");  // no line behind it
+    EXPECT_EQ(read_tetrahedra(folder / "a.vtk").mesh.cell_count(), 2);
+    test::write_file(
+        folder / "b.vtk",
+        "# vtk DataFile Version 3.0\na\nBINARY\nDATASET UNSTRUCTURED_GRID\n"
+        "FIELD FieldData 2\nname 1 1 string\n\xc4left\nCYCLE 1 1 int\n\0\0\0\7\nPOINTS 4 float\n"s
+            + "\0\0\0\0\0\0\0\0\0\0\0\0\x3f\x80\0\0\0\0\0\0\0\0\0\0"s
+            + "\0\0\0\0\x3f\x80\0\0\0\0\0\0\0\0\0\0\0\0\0\0\x3f\x80\0\0\n"s
+            + "CELLS 1 5\n\0\0\0\4\0\0\0\0\0\0\0\1\0\0\0\2\0\0\0\3\n"s
+            + "CELL_TYPES 1\n\0\0\0\n\n"s);
+    EXPECT_EQ(read_tetrahedra(folder / "b.vtk").mesh.cell_count(), 1);
+}
+
 TEST(ReadVtk, ReadsBitsAndStringsAsBytesInFrontOfTheRegions) {
     const test::TempFolder folder;
     using namespace std::string_literals;
     const std::string long_string(70, 's');
-    test::write_file(
-        folder / "a.vtk",
+    const std::string text =
         "# vtk DataFile Version 3.0\na\nBINARY\nDATASET UNSTRUCTURED_GRID\nPOINTS 4 float\n"
-            + "\0\0\0\0\0\0\0\0\0\0\0\0\x3f\x80\0\0\0\0\0\0\0\0\0\0"s
-            + "\0\0\0\0\x3f\x80\0\0\0\0\0\0\0\0\0\0\0\0\0\0\x3f\x80\0\0\n"s
-            + "CELLS 1 5\n\0\0\0\4\0\0\0\0\0\0\0\1\0\0\0\2\0\0\0\3\nCELL_TYPES 1\n\0\0\0\n\n"s
-            + "POINT_DATA 4\nSCALARS flag bit\nLOOKUP_TABLE default\n\xa0\n"
-            + "FIELD f 1\nname 1 4 string\n\xc0\xc2no\x80\x46"s + long_string + "\xc1y\n"
-            + "CELL_DATA 1\nFIELD f 2\nflags 9 1 bit\n\xff\x80\nregion 1 1 unsigned_char\n\x07\n");
-    EXPECT_EQ(read_tetrahedra(folder / "a.vtk").mesh.regions, (std::vector<std::uint16_t>{7}));
+        + "\0\0\0\0\0\0\0\0\0\0\0\0\x3f\x80\0\0\0\0\0\0\0\0\0\0"s
+        + "\0\0\0\0\x3f\x80\0\0\0\0\0\0\0\0\0\0\0\0\0\0\x3f\x80\0\0\n"s
+        + "CELLS 1 5\n\0\0\0\4\0\0\0\0\0\0\0\1\0\0\0\2\0\0\0\3\nCELL_TYPES 1\n\0\0\0\n\n"s
+        + "POINT_DATA 4\nSCALARS flag bit\nLOOKUP_TABLE default\n\xa0\n"
+        + "FIELD f 1\nname 1 4 string\n\xc0\xc2no\x80\x46"s + long_string + "\xc1y\n"
+        + "CELL_DATA 1\nFIELD f 2\nflags 9 1 bit\n\xff\x80\nregion 1 1 unsigned_char\n\x07\n";
+    std::string in_capitals = text;
+    for (const std::string type : {"float", "bit", "string", "unsigned_char"}) {
+        std::string capitals = type;
+        std::transform(type.begin(), type.end(), capitals.begin(), ::toupper);
+        for (std::size_t at = in_capitals.find(" " + type + "\n"); at != std::string::npos;
+             at = in_capitals.find(" " + type + "\n")) {
+            in_capitals.replace(at + 1, type.size(), capitals);
+        }
+    }
+    for (const std::string& one : {text, in_capitals}) {
+        test::write_file(folder / "a.vtk", one);
+        EXPECT_EQ(read_tetrahedra(folder / "a.vtk").mesh.regions, (std::vector<std::uint16_t>{7}));
+    }
 }
 
 TEST(ReadVtk, RefusesArraysCutOffAnywhere) {

@@ -24,12 +24,12 @@ TEST(PentCheck, ProvesTheTables) {
 }
 
 TEST(PentCheck, SaysWhenItsReportCannotBeWritten) {
-    const Outcome sound = run_program("pent-check --json /no/such/folder/report.json");
+    const Outcome sound = run_program("pent-check --json /dev/null/folder/report.json");
     EXPECT_EQ(sound.exit_code, 1);
     test::expect_one_error_line(sound, "pent-check");
-    test::expect_contains(sound.err, {"/no/such/folder/report.json", "cannot be written"});
+    test::expect_contains(sound.err, {"/dev/null/folder: folder cannot be made"});
     // What is wrong with the input is more to the point.
-    const Outcome missing = run_program("pent-check none.pent --json /no/such/folder/report.json");
+    const Outcome missing = run_program("pent-check none.pent --json /dev/null/folder/report.json");
     EXPECT_EQ(missing.exit_code, 1);
     test::expect_one_error_line(missing, "pent-check");
     test::expect_contains(missing.err, {"none.pent"});

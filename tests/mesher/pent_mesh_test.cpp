@@ -242,8 +242,15 @@ TEST(PentMesh, WritesPentFilesIntoFoldersThatItMakes) {
     test::expect_contains(other.err, {"x.obj: a mesh is a .pent file", "x.pent"});
     EXPECT_TRUE(std::filesystem::is_empty(folder.path()));
     const std::string out = (folder / "new" / "sub" / "x.pent").string();
-    EXPECT_EQ(run_program("pent-mesh --ball 1 --layers 1 -o " + out).exit_code, 0);
-    EXPECT_TRUE(std::filesystem::exists(out));
+    const std::string report = (folder / "reports" / "a.json").string();
+    const std::string histogram = (folder / "pictures" / "a.svg").string();
+    EXPECT_EQ(run_program("pent-mesh --ball 1 --layers 1 -o " + out + " --json " + report
+                          + " --histogram " + histogram)
+                  .exit_code,
+              0);
+    for (const std::string& file : {out, report, histogram}) {
+        EXPECT_TRUE(std::filesystem::exists(file)) << file;
+    }
     EXPECT_EQ(run_program("pent-mesh --ball 1 --layers 1 -o /dev/null").exit_code, 0);
 }
 

@@ -137,9 +137,11 @@ int dimension_of(const Cell& cell) {
     return cell.gmsh == 1 ? 1 : cell.gmsh == 2 ? 2 : 3;
 }
 
+// In a mesh for several processes each cell is all of a part of its entity, by a number of its own.
 std::string gmsh_4(bool is_binary,
                    bool is_big_endian = false,
-                   const std::vector<Cell>& cells = kCells) {
+                   const std::vector<Cell>& cells = kCells,
+                   bool is_partitioned = false) {
     const auto numbers = [&](const std::vector<int>& values) {
         return is_binary ? raw_all<int>(values, is_big_endian) : words(values) + "\n";
     };
@@ -165,14 +167,36 @@ std::string gmsh_4(bool is_binary,
         text += cell.label == 0 ? longs({0}) : longs({2}) + numbers({-cell.label, 99});
         text += longs({2}) + numbers({1, -2});
     }
-    text += end + "$EndEntities\n$Nodes\n" + longs({1, kPoints, 5, kPoints + 4})
-            + numbers({3, 1, 0}) + longs({kPoints}) + longs(names) + reals(kCoordinates) + end
-            + "$EndNodes\n$Elements\n" + longs({6, 6, 1, 6});
+    text += end + "$EndEntities\n";
+    constexpr int kFirstPart = 100;
+    if (is_partitioned) {
+        // Of two processes, with cells of the other one at 55; a surface has the number of a cell.
+        text += "$PartitionedEntities\n" + longs({2, 1}) + numbers({55, 1}) + longs({1, 0, 1, 4})
+                + numbers({7, 0, 3}) + longs({2}) + numbers({1, 2}) + reals({0, 0, 0}) + longs({0})
+                + numbers({kFirstPart + 3, 2, 4}) + longs({1}) + numbers({1})
+                + reals({0, 0, 0, 1, 1, 2}) + longs({1}) + numbers({66}) + longs({0});
+        number = 0;
+        for (const Cell& cell : cells) {
+            ++number;
+            if (dimension_of(cell) < 3) {
+                continue;
+            }
+            text += numbers({kFirstPart + number, 3, number}) + longs({1}) + numbers({2})
+                    + reals({0, 0, 0, 1, 1, 2});
+            text += cell.label == 0 ? longs({0}) : longs({1}) + numbers({cell.label});
+            text += longs({1}) + numbers({1});
+        }
+        text += end + "$EndPartitionedEntities\n";
+    }
+    text += "$Nodes\n" + longs({1, kPoints, 5, kPoints + 4}) + numbers({3, 1, 0}) + longs({kPoints})
+            + longs(names) + reals(kCoordinates) + end + "$EndNodes\n$Elements\n"
+            + longs({6, 6, 1, 6});
     number = 0;
     for (const Cell& cell : cells) {
         std::vector<int> row = plus(cell.corners, 5);
         row.insert(row.begin(), ++number);
-        text += numbers({dimension_of(cell), number, cell.gmsh}) + longs({1}) + longs(row);
+        text += numbers({dimension_of(cell), number + (is_partitioned ? kFirstPart : 0), cell.gmsh})
+                + longs({1}) + longs(row);
     }
     return text + end + "$EndElements\n";
 }
@@ -260,7 +284,7 @@ TEST(ReadCells, ReadsBytesAsItReadsText) {
 }
 
 // Groups are regions; where there is none the volumes are, by their own numbers.
-TEST(ReadCells, GivesTheSameRegionsInBothVersionsOfGmsh) {
+TEST(ReadCells, GivesTheSameRegionsInBothVersionsOfGmshAndInParts) {
     std::vector<Cell> some = kCells;
     some[3].label = 0;
     std::vector<Cell> none = kCells;
@@ -275,7 +299,8 @@ TEST(ReadCells, GivesTheSameRegionsInBothVersionsOfGmsh) {
     for (const auto& [cells, regions] : expected) {
         for (const std::string& file :
              {gmsh_2(false, false, cells), gmsh_2(true, false, cells), gmsh_2(true, true, cells),
-              gmsh_4(false, false, cells), gmsh_4(true, false, cells), gmsh_4(true, true, cells)}) {
+              gmsh_4(false, false, cells), gmsh_4(true, false, cells), gmsh_4(true, true, cells),
+              gmsh_4(false, false, cells, true), gmsh_4(true, true, cells, true)}) {
             EXPECT_EQ(read_text("a.msh", file).mesh.regions, regions);
         }
     }
@@ -314,8 +339,8 @@ TEST(ReadCells, SaysWhatIsWrongInBytesAndWhere) {
         message_for("a.vtk", replaced(vtk(true, false), "POINTS 12 double", "POINTS 12 bit")),
         {"points of type \"bit\"", "expected float or double"});
     test::expect_contains(
-        message_for("a.vtk", replaced(vtk(true, true), "TIME 1 1 double", "TIME 1 1 string")),
-        {"values of type \"string\"", "a type of numbers"});
+        message_for("a.vtk", replaced(vtk(true, true), "TIME 1 1 double", "TIME 1 1 half")),
+        {"values of type \"half\"", "a type of numbers"});
     test::expect_contains(
         message_for("a.vtk", replaced(vtk(true, true), "CONNECTIVITY", "CONECTIVITY")),
         {"found \"CONECTIVITY\", expected CONNECTIVITY"});

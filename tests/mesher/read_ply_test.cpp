@@ -112,6 +112,7 @@ TEST(ReadPly, NamesTheLineOfAHeaderThatIsWrong) {
     const auto header = [&](const std::string& from, const std::string& to) {
         return message_for(replaced(kHeader, from, to));
     };
+    test::expect_contains(header("ply", "plx"), {"a.ply: line 1", "no \"ply\" at the start"});
     test::expect_contains(header("ascii", "utf8"), {"a.ply: line 2", "format \"utf8\""});
     test::expect_contains(header("property float x", "property half x"),
                           {"a.ply: line 4", "type \"half\"", "expected one of PLY's"});
@@ -120,6 +121,37 @@ TEST(ReadPly, NamesTheLineOfAHeaderThatIsWrong) {
     test::expect_contains(header("property float y", "proprety float y"),
                           {"a.ply: line 5", "\"proprety\"", "expected element, property"});
     test::expect_contains(header("end_header\n", ""), {"a.ply", "the file ends within the header"});
+}
+
+// MeshLab writes quality as it comes, which may be no number, and texture as lists.
+TEST(ReadPly, PassesOverWhatNothingIsMadeOf) {
+    const std::string whole = kHeader + kPoints + "3 0 1 2\n";
+    std::string rich = replaced(whole, "property float z\n",
+                                "property list uchar int tags\nproperty float quality\n"
+                                "property float z\nproperty float zs\nproperty float w\n");
+    rich = replaced(rich, "int vertex_indices\n",
+                    "int vertex_indices\nproperty list uchar float uv\nproperty float q\n");
+    rich = replaced(
+        rich, kPoints + "3 0 1 2\n",
+        "0 0 2 7 -9 nan 0 5 6\n1 0 0 -inf 0 5 6\n0 1 1 nan 1e999 0 5 6\n3 0 1 2 2 nan 1 inf\n");
+    const SurfaceFile plain = read_bytes(whole);
+    const SurfaceFile found = read_bytes(rich);
+    EXPECT_EQ(found.surface.points, plain.surface.points);
+    EXPECT_EQ(found.surface.triangles, plain.surface.triangles);
+    test::expect_contains(message_for(replaced(rich, "0 0 2 7 -9 nan 0", "0 0 2 7 -9 0 nan")),
+                          {"a.ply: line 16: found \"nan\", expected a value, a finite number"});
+}
+
+TEST(ReadPly, CountsEdgesAndRefusesStrips) {
+    const std::string whole = kHeader + kPoints + "3 0 1 2\n";
+    const std::string edge = "element edge 2\nproperty int vertex1\nproperty int vertex2\n";
+    const SurfaceFile file =
+        read_bytes(replaced(whole, "end_header", edge + "end_header") + "0 1\n1 2\n");
+    EXPECT_EQ(file.left_out, "2 lines");
+    EXPECT_EQ(file.surface.triangle_count(), 1);
+    const std::string strips = "element tristrips 1\nproperty list int int vertex_indices\n";
+    test::expect_contains(message_for(replaced(whole, "end_header", strips + "end_header")),
+                          {"a.ply: line ", "triangles in strips; expected faces"});
 }
 
 TEST(ReadPly, NamesValuesThatAreWrong) {
@@ -131,9 +163,6 @@ TEST(ReadPly, NamesValuesThatAreWrong) {
     test::expect_contains(message_for(kHeader + kPoints + "-1\n"), {"a list of length -1"});
     test::expect_contains(message_for(kHeader + kPoints + "2 0 1\n"),
                           {"a face with 2 corners", "expected 3 or more"});
-    test::expect_contains(
-        message_for(replaced(whole, "property float z", "property list uchar float z")),
-        {"a list among the properties of vertex", "expected single values"});
     std::string infinite = corner_of<float>("float", false);
     infinite.replace(infinite.find("end_header\n") + 11, 4,
                      raw(std::numeric_limits<float>::infinity(), false));

@@ -143,6 +143,29 @@ TEST(ReadTetrahedra, RefusesDamageInEitherOfNodeAndEle) {
         {"b.mesh: no such file"});
 }
 
+// Netgen and FreeFem write 2, Gmsh may begin with comments.
+TEST(ReadTetrahedra, ReadsGmshOfAnyVersionFromTwoOn) {
+    for (const std::string version : {"2", "2.0", "2.1", "2.2"}) {
+        const TetrahedraFile file =
+            read_text("a.msh", "$Comments\n$MeshFormat\n$EndComments\n$MeshFormat\n" + version
+                                   + " 0 8\n$EndMeshFormat\n$Nodes\n4\n1 0 0 0\n2 1 0 0\n3 0 1 0\n"
+                                     "4 0 0 1\n$EndNodes\n$Elements\n1\n1 4 2 7 1 1 2 3 4\n"
+                                     "$EndElements\n");
+        EXPECT_EQ(file.mesh.cell_count(), 1) << version;
+        EXPECT_EQ(file.mesh.regions, std::vector<std::uint16_t>{7}) << version;
+    }
+}
+
+// Mmg writes which cells it must keep.
+TEST(ReadTetrahedra, PassesOverWhatMmgMustKeep) {
+    const TetrahedraFile file =
+        read_text("a.mesh",
+                  "MeshVersionFormatted 2\nDimension 3\nVertices 4\n0 0 0 1\n1 0 0 1\n"
+                  "0 1 0 1\n0 0 1 1\nRequiredTetrahedra 1\n1\nRequiredQuadrilaterals 0\n"
+                  "Tetrahedra 1\n1 2 3 4 6\nEnd\n");
+    EXPECT_EQ(file.mesh.regions, std::vector<std::uint16_t>{6});
+}
+
 TEST(ReadTetrahedra, KeepsLabelsAsRegions) {
     for (const auto& [name, text] :
          {std::pair("a.mesh", kMedit), {"a.msh", kGmsh2}, {"a.msh", kGmsh4}}) {
@@ -168,6 +191,10 @@ TEST(ReadTetrahedra, RefusesDamageWithFileAndLine) {
     test::expect_contains(message_for("a.tobj", "f 1 2 3\n"), {"\"f\"", "v or t"});
     test::expect_contains(message_for("a.tobj", "v 0 0 0\n"), {"no tetrahedron"});
     test::expect_contains(message_for("a.tobj", ""), {"no tetrahedron"});
+    test::expect_contains(message_for("a.mesh",
+                                      "MeshVersionFormatted 1\nDimension 3\nVertices 3\n"
+                                      "0 0 0 0\n1 0 0 0\n0 1 0 0\nTriangles 1\n1 2 3 0\n"),
+                          {"no tetrahedron", "but 1 triangle; write a surface as .ply"});
     test::expect_contains(message_for("a.tobj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\nt 0 1 2 3\n"),
                           {"degenerate"});
     test::expect_contains(message_for("a.mesh", "nonsense"), {"Medit"});
@@ -181,7 +208,8 @@ TEST(ReadTetrahedra, RefusesDamageWithFileAndLine) {
     test::expect_contains(message_for("a.msh", "$Nodes\n"), {"$MeshFormat"});
     test::expect_contains(message_for("a.msh", "$MeshFormat\n4.1 1 8\n"),
                           {"a.msh: byte 20: the file ends here"});
-    test::expect_contains(message_for("a.msh", "$MeshFormat\n3.0 0 8\n"), {"2.2 or 4.1"});
+    test::expect_contains(message_for("a.msh", "$MeshFormat\n3.0 0 8\n"),
+                          {"Gmsh version 3", "2.0 to 2.2 or 4.1"});
     test::expect_contains(message_for("a.msh",
                                       "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n2\n1 0 0 0\n"
                                       "1 0 0 1\n$EndNodes\n"),
@@ -191,7 +219,7 @@ TEST(ReadTetrahedra, RefusesDamageWithFileAndLine) {
                           {"found \"BINRAY\", expected ASCII or BINARY"});
     test::expect_contains(
         message_for("a.vtk", "# vtk DataFile Version 3.0\nt\nASCII\nDATASET POLYDATA\n"),
-        {"POLYDATA"});
+        {"POLYDATA", "expected UNSTRUCTURED_GRID; write a surface as .ply"});
     test::expect_contains(message_for("a.vtk",
                                       "# vtk DataFile Version 3.0\nt\nASCII\nCELLS 1 5\n4 0 1 2 3\n"
                                       "CELL_TYPES 2\n10\n10\n"),

@@ -11,6 +11,7 @@
 
 #include <numeric>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace pent::mesher {
@@ -106,6 +107,78 @@ TEST(ReadVtu, TakesTheRegionsFromTheArrayAskedFor) {
         test::expect_contains(
             test::error_of([&] { static_cast<void>(read_tetrahedra(folder / name, {}, "bone")); }),
             {std::string(name) + ": no array \"bone\" of one number a cell", "tissue"});
+    }
+}
+
+// Two tetrahedra with arrays of cells, "NAME: FIRST SECOND" each, as both kinds of files of VTK.
+std::vector<std::string> files_with(
+    const test::TempFolder& folder,
+    const std::vector<std::pair<std::string, std::string>>& arrays) {
+    test::VtuParts parts = rich_parts(0);
+    parts.triangles.resize(3, 0);
+    parts.regions.clear();
+    parts.temperature.clear();
+    parts.cell_vectors.clear();
+    std::string vtu = test::to_vtu(parts, {});
+    std::string xml;
+    std::string legacy = test::to_legacy_vtk(parts) + "CELL_DATA 2\n";
+    for (const auto& [name, values] : arrays) {
+        xml += "<DataArray type=\"Int32\" Name=\"" + name + "\" format=\"ascii\">" + values
+               + "</DataArray>\n";
+        std::string word = name;
+        for (std::size_t at = word.find(' '); at != std::string::npos; at = word.find(' ')) {
+            word.replace(at, 1, "%20");
+        }
+        legacy += "SCALARS " + word + " int\nLOOKUP_TABLE default\n" + values + "\n";
+    }
+    vtu.insert(vtu.find("</CellData>"), xml);
+    test::write_file(folder / "a.vtu", vtu);
+    test::write_file(folder / "a.vtk", legacy);
+    return {(folder / "a.vtu").string(), (folder / "a.vtk").string()};
+}
+
+TEST(RegionArray, IsKnownByTheNamesThatOtherProgramsGiveIt) {
+    const test::TempFolder folder;
+    for (const std::string name :
+         {"region",          "Region Id",   "REGIONS",         "Material",      "MaterialIDs",
+          "material_id",     "attribute",   "Label",           "gmsh:physical", "gmsh:geometrical",
+          "medit:ref",       "tetgen:ref",  "nastran:ref",     "netgen:index",  "su2:tag",
+          "avsucd:material", "cell_tags",   "ElementBlockIds", "ObjectId",      "CellEntityIds",
+          "PhysicalIds",     "GeometryIds", "elemTag",         "RefId"}) {
+        for (const std::string& file : files_with(folder, {{"age", "5 6"}, {name, "3 4"}})) {
+            const TetrahedraFile read = read_tetrahedra(file);
+            EXPECT_EQ(read.mesh.regions, (std::vector<std::uint16_t>{3, 4})) << name;
+            EXPECT_EQ(read.region_array, name);
+            ASSERT_EQ(read.extras.cell_fields.size(), 1U) << name;
+            EXPECT_EQ(read.extras.cell_fields[0].name, "age");
+        }
+    }
+    for (const std::string name : {"temperature", "subdomain", "partition", "regional", "ref"}) {
+        for (const std::string& file : files_with(folder, {{name, "3 4"}})) {
+            EXPECT_TRUE(read_tetrahedra(file).mesh.regions.empty()) << name;
+            EXPECT_EQ(read_tetrahedra(file).region_array, "");
+            EXPECT_EQ(read_tetrahedra(file).extras.cell_fields.size(), 1U);
+        }
+    }
+}
+
+TEST(RegionArray, IsTheOneThatSaysMostOfSeveral) {
+    const test::TempFolder folder;
+    const std::vector<std::string> names = {"Material", "Label",         "gmsh:physical",
+                                            "RefId",    "CellEntityIds", "gmsh:geometrical"};
+    for (std::size_t better = 0; better < names.size(); ++better) {
+        for (std::size_t worse = better + 1; worse < names.size(); ++worse) {
+            for (const std::string& file :
+                 files_with(folder, {{names[worse], "1 2"}, {names[better], "3 4"}})) {
+                EXPECT_EQ(read_tetrahedra(file).region_array, names[better]);
+                EXPECT_EQ(read_tetrahedra(file).mesh.regions, (std::vector<std::uint16_t>{3, 4}));
+            }
+            // But for one that has no labels.
+            for (const std::string& file :
+                 files_with(folder, {{names[better], "3 -1"}, {names[worse], "1 2"}})) {
+                EXPECT_EQ(read_tetrahedra(file).region_array, names[worse]);
+            }
+        }
     }
 }
 

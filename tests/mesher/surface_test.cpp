@@ -7,7 +7,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
+#include <cctype>
 #include <limits>
 
 namespace pent::mesher {
@@ -158,6 +160,22 @@ TEST(ReadStl, ReadsBinaryFiles) {
                           {"a.stl: triangle 1", "not finite"});
 }
 
+TEST(ReadStl, TakesKeywordsInAnyLettersBehindBlankLines) {
+    const std::string text =
+        "\nsolid a part of a machine with a name that is longer than the header of a binary file\n"
+        "facet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\nendloop\n"
+        "endfacet\nendsolid a\n";
+    std::string capitals = text;
+    std::transform(text.begin(), text.end(), capitals.begin(), ::toupper);
+    for (const std::string& one : {text, capitals}) {
+        const SurfaceFile file = read_text("a.stl", one);
+        EXPECT_EQ(file.surface.triangle_count(), 1);
+        EXPECT_DOUBLE_EQ(area(file.surface), 0.5);
+    }
+    test::expect_contains(message_for("a.stl", "SOLID a\nOUTER LOOP\nVERTEX 0 0 0\nENDLOOP\n"),
+                          {"a.stl: line 4: a loop of 1 vertices"});
+}
+
 TEST(ReadStl, NamesLoopsThatAreNoTriangles) {
     const std::string loop = "solid a\nouter loop\nvertex 0 0 0\nvertex 1 0 0\n";
     test::expect_contains(message_for("a.stl", loop + "endloop\n"),
@@ -172,6 +190,9 @@ TEST(ReadStl, SaysWhatATruncatedFileShouldHaveBeen) {
                           {"a.stl: " + std::to_string(whole.size() - 50) + " bytes; expected "
                                + std::to_string(whole.size()) + " for the 4 triangles",
                            "cut off"});
+    std::string longer = whole + "more";
+    longer[10] = '\0';
+    test::expect_contains(message_for("a.stl", longer), {"bytes; expected", "goes on behind them"});
     for (std::size_t length = 0; length < whole.size(); ++length) {
         EXPECT_NE(message_for("a.stl", whole.substr(0, length)), "") << length;
     }
@@ -212,8 +233,11 @@ TEST(ReadOff, TakesCountsOnTheFirstLineAndNamesWhatIsWrong) {
         read_text("a.off", "COFF 3 1 0 # colors follow\n0 0 0 9\n1 0 0 9\n0 1 0 9\n3 0 1 2 9\n");
     EXPECT_DOUBLE_EQ(area(file.surface), 0.5);
     test::expect_contains(message_for("a.off", "OFF BINARY\n"), {"a.off: line 1", "binary OFF"});
-    test::expect_contains(message_for("a.off", "OFF\n1 1 0\n0 0 0\n2 0 0\n"),
-                          {"a.off: line 4", "a face with 2 corners", "expected 3 or more"});
+    test::expect_contains(message_for("a.off", "OFF\n1 1 0\n0 0 0\n0\n"),
+                          {"a.off: line 4", "a face with 0 corners", "expected 1 or more"});
+    EXPECT_EQ(read_text("a.off", "OFF\n3 4 0\n0 0 0\n1 0 0\n0 1 0\n2 0 1\n1 2\n3 0 1 2\n2 1 2\n")
+                  .left_out,
+              "2 lines, 1 point");
     test::expect_contains(message_for("a.off", "OFF\n2 1 0\n0 0 0\n"),
                           {"a.off", "the file ends here; expected a point"});
 }

@@ -86,8 +86,8 @@ TEST_F(PentView, RefusesWhatItCannotDo) {
     expect_refused(at("none") + page_, "none: no such file or folder");
     expect_refused(at("run") + " --page " + at("none"), "build the page with scripts/web.sh");
     expect_refused(at("run") + page_ + " --frames 1", "--frames: found without --export");
-    expect_refused(at("run") + page_ + " --limit 0.1 --export " + at("no/folder.html"),
-                   "no/folder");
+    expect_refused(at("run") + page_ + " --limit 0.1 --export " + "/dev/null/no/folder.html",
+                   "/dev/null/no: folder cannot be made");
     EXPECT_EQ(run_program("pent-view " + at("run") + " --port 70000").exit_code, 2);
 }
 

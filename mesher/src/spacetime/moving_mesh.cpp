@@ -1,3 +1,5 @@
+#include "../carried_arrays.h"
+#include "../sound_base.h"
 #include "../tet_readers.h"
 #include "../vtk_grid.h"
 #include "../xml_file.h"
@@ -22,17 +24,14 @@ namespace {
 namespace fs = std::filesystem;
 using Triangle = std::array<std::uint32_t, 3>;
 
-VtkGrid read_grid(const fs::path& path) {
+VtkGrid read_frame_grid(const fs::path& path) {
     require_file(path);
     const std::string ending = format_of(path, "");
-    if (ending == ".vtu") {
-        return read_vtu_grid(path);
+    if (ending != ".vtu" && ending != ".vtk") {
+        throw Error(path.string() + ": expected an unstructured grid as .vtu or legacy .vtk"
+                    + (ending == ".pvtu" ? ": merge the parts first" : ""));
     }
-    if (ending == ".vtk") {
-        return read_vtk_grid(path);
-    }
-    throw Error(path.string() + ": expected an unstructured grid as .vtu or legacy .vtk"
-                + (ending == ".pvtu" ? ": merge the parts first" : ""));
+    return read_grid(path);
 }
 
 std::string corners_text(const CellSoup& soup, std::size_t first, std::size_t count) {
@@ -80,18 +79,6 @@ void require_same_cells(const VtkGrid& first,
     }
 }
 
-// The values of an array for these of its tuples.
-Eigen::MatrixXd values_at(const VtkArray& array, const std::vector<std::int64_t>& tuples) {
-    Eigen::MatrixXd values(array.components, static_cast<Eigen::Index>(tuples.size()));
-    for (std::size_t i = 0; i < tuples.size(); ++i) {
-        for (std::int64_t k = 0; k < array.components; ++k) {
-            values(k, static_cast<Eigen::Index>(i)) =
-                array.values[static_cast<std::size_t>(tuples[i] * array.components + k)];
-        }
-    }
-    return values;
-}
-
 // Collects the frames of a series of grids.
 class Collector {
 public:
@@ -123,8 +110,9 @@ public:
         if (regions != nullptr) {
             add_triangles(grid, *regions);
         }
-        choose_vertex_fields(grid.point_arrays);
-        choose_cell_fields(grid.cell_arrays);
+        vertex_arrays_ = begin_fields(carried_point_arrays(grid, dropped_), mesh_.vertex_fields);
+        cell_arrays_ =
+            begin_fields(carried_cell_arrays(grid, region_name_, dropped_), mesh_.cell_fields);
         first_ = std::move(grid);
         add_frame(first_, path);
     }
@@ -209,43 +197,12 @@ private:
         }
     }
 
-    void choose_vertex_fields(const std::vector<VtkArray>& arrays) {
-        FieldNames names(reserved_vertex_names(4));
-        for (const VtkArray& array : arrays) {
-            if (can_carry(array, vertex_arrays_)) {
-                vertex_arrays_.push_back(array.name);
-                mesh_.vertex_fields.push_back({names.take(array.name, array.components == 3), {}});
-            }
+    static std::vector<std::string> begin_fields(CarriedArrays carried,
+                                                 std::vector<MovingField>& fields) {
+        for (std::string& name : carried.names) {
+            fields.push_back({std::move(name), {}});
         }
-    }
-
-    void choose_cell_fields(const std::vector<VtkArray>& arrays) {
-        FieldNames names(reserved_cell_names(4));
-        bool has_fibers = false;
-        for (const VtkArray& array : arrays) {
-            if (array.name == region_name_ || !can_carry(array, cell_arrays_)) {
-                continue;
-            }
-            const bool is_vector = array.components == 3;
-            const bool is_fiber = !has_fibers && is_vector && is_fiber_name(array.name);
-            has_fibers = has_fibers || is_fiber;
-            cell_arrays_.push_back(array.name);
-            mesh_.cell_fields.push_back(
-                {is_fiber ? array.name : names.take(array.name, is_vector), {}});
-        }
-    }
-
-    // Notes why not, else.
-    bool can_carry(const VtkArray& array, const std::vector<std::string>& carried) {
-        const bool has_room = array.components == 1 || array.components == 3;
-        const bool is_new = std::find(carried.begin(), carried.end(), array.name) == carried.end();
-        if (!has_room || !is_new) {
-            dropped_.push_back(
-                "array " + array.name
-                + (has_room ? ", a second one"
-                            : formatted(" of %d components", static_cast<int>(array.components))));
-        }
-        return has_room && is_new;
+        return std::move(carried.arrays);
     }
 
     // Arrays that the first frame lacks become fields without its values, which finish() tells of.
@@ -327,9 +284,9 @@ MovingMesh read_grids(const fs::path& path, const SeriesOptions& options) {
     for (std::size_t i = 0; i < all.size(); i += static_cast<std::size_t>(options.every)) {
         mesh.times.push_back(all[i].time);
         if (i == 0) {
-            collector.add_first(read_grid(all[i].path), all[i].path);
+            collector.add_first(read_frame_grid(all[i].path), all[i].path);
         } else {
-            collector.add(read_grid(all[i].path), all[i].path);
+            collector.add(read_frame_grid(all[i].path), all[i].path);
         }
     }
     collector.finish();
@@ -365,6 +322,7 @@ MovingMesh read_moving_mesh(const fs::path& path, const SeriesOptions& options) 
     }
     MovingMesh mesh =
         fs::is_directory(path) ? read_run_frames(path, options) : read_grids(path, options);
+    require_sound_base(mesh.base, path.string());
     if (mesh.frame_count() < 2) {
         throw Error(path.string()
                     + formatted(": every %dth frame leaves one; a space-time mesh"

@@ -80,15 +80,43 @@ Eigen::MatrixXd moved_fibers(const SimplexMesh<3>& rest, const Positions<3>& pos
     return fibers;
 }
 
+void leave_out(const std::string& what, MovingMesh& mesh) {
+    mesh.left_out += (mesh.left_out.empty() ? "" : ", ") + what;
+}
+
+// Numbers of the mesh at rest stay what they are in every frame, where frames do not have them;
+// which way a vector goes with the body the file does not say.
+void add_fields_of_mesh(const std::vector<VertexField>& of_mesh,
+                        std::vector<MovingField>& fields,
+                        MovingMesh& mesh) {
+    for (const VertexField& field : of_mesh) {
+        if (std::any_of(fields.begin(), fields.end(),
+                        [&](const MovingField& known) { return known.name == field.name; })) {
+            continue;
+        }
+        if (field.values.rows() == 1) {
+            fields.push_back({field.name, std::vector(mesh.frame_count(), field.values)});
+        } else {
+            leave_out("vector " + field.name + " of the mesh", mesh);
+        }
+    }
+}
+
 // What fields are called in the file, and what is said of those that are not carried.
 void finish_fields(MovingMesh& mesh) {
     for (const std::string& removed :
          remove_unfinished(mesh.vertex_fields, mesh.frame_count(), "quantity")) {
-        mesh.left_out += (mesh.left_out.empty() ? "" : ", ") + removed;
+        leave_out(removed, mesh);
     }
     FieldNames names(reserved_vertex_names(4));
     for (MovingField& field : mesh.vertex_fields) {
         field.name = names.take(field.name, field.values.front().rows() == 3);
+    }
+    FieldNames cell_names(reserved_cell_names(4));
+    for (MovingField& field : mesh.cell_fields) {
+        if (field.values.front().rows() == 1) {  // all but the fibers
+            field.name = cell_names.take(field.name, false);
+        }
     }
 }
 
@@ -147,6 +175,8 @@ MovingMesh read_run_frames(const fs::path& folder, const SeriesOptions& options)
         add_field("fiber", moved_fibers(file.mesh, frame.positions), mesh.cell_fields);
     }
     mesh.base.positions = mesh.positions.front();
+    add_fields_of_mesh(file.extras.vertex_fields, mesh.vertex_fields, mesh);
+    add_fields_of_mesh(file.extras.cell_fields, mesh.cell_fields, mesh);
     finish_fields(mesh);
     return mesh;
 }

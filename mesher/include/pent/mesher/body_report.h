@@ -29,7 +29,9 @@ struct BodyReport {
     std::int64_t components = 0;
     std::int64_t cavities = 0;
     std::string cut;                ///< Cells of a tet mesh that were cut, see TetrahedraFile.
-    std::string left_out;           ///< Its cells of fewer dimensions than tetrahedra or triangles.
+    std::string left_out;           ///< What of the file is no part of the body: cells of fewer
+                                    ///< dimensions than tetrahedra or triangles, quantities.
+    std::string region_array;       ///< See TetrahedraFile.
     std::int64_t curved_cells = 0;  ///< Its cells of higher order, of which the corners were taken.
     Repair repair = Repair::None;   ///< How the surface was mended, if it had to be.
     double repair_distance = 0;     ///< From the mended surface to the one read, m.

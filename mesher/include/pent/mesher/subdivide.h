@@ -1,5 +1,6 @@
 #pragma once
 
+#include <pent/pent_file.h>
 #include <pent/simplex_mesh.h>
 
 #include <array>
@@ -13,13 +14,20 @@ namespace pent::mesher {
 ///
 /// The old vertices keep their numbers, new ones follow. Cells of a face see it cut alike, since
 /// the cut depends on the order of its vertices' numbers alone. The cells of a cell follow one
-/// another. Regions are handed down; columns and layers become those of the base mesh subdivided
-/// alike, with k layers for each one before. Parents are left out.
+/// another. Regions and fibers are handed down; columns and layers become those of the base mesh
+/// subdivided alike, with k layers for each one before. Parents are left out.
 ///
 /// @param k  1 or more.
 /// Throws an Error if the result would have more than 2^32 - 1 vertices.
 template <int Dim>
 [[nodiscard]] SimplexMesh<Dim> subdivide(const SimplexMesh<Dim>& mesh, int k);
+
+/// What the vertices and cells of a mesh (Dim 3 or 4) have as what those of subdivide() have:
+/// linear between vertices, of cells handed down.
+template <int Dim>
+[[nodiscard]] MeshExtras<Dim> subdivide_fields(const SimplexMesh<Dim>& mesh,
+                                               const MeshExtras<Dim>& fields,
+                                               int k);
 
 /// Cells for quadratic elements (Dim 3 or 4): every edge is cut in two, as subdivide() does, and
 /// each of the 2^Dim cells of a cell has that one's number as its parent.

@@ -1,0 +1,73 @@
+#include "carried_arrays.h"
+
+#include "spacetime/moving_fields.h"
+
+#include <pent/formatted.h>
+#include <pent/pent_file.h>
+
+#include <algorithm>
+
+namespace pent::mesher {
+
+namespace {
+
+// Notes why not, else.
+bool can_carry(const VtkArray& array,
+               const std::vector<std::string>& carried,
+               std::vector<std::string>& left_out) {
+    const bool has_room = array.components == 1 || array.components == 3;
+    const bool is_new = std::find(carried.begin(), carried.end(), array.name) == carried.end();
+    if (!has_room || !is_new) {
+        left_out.push_back(
+            "array " + array.name
+            + (has_room ? ", a second one"
+                        : formatted(" of %d components", static_cast<int>(array.components))));
+    }
+    return has_room && is_new;
+}
+
+}  // namespace
+
+CarriedArrays carried_point_arrays(const VtkGrid& grid, std::vector<std::string>& left_out) {
+    FieldNames names(reserved_vertex_names(4));
+    CarriedArrays carried;
+    for (const VtkArray& array : grid.point_arrays) {
+        if (can_carry(array, carried.arrays, left_out)) {
+            carried.arrays.push_back(array.name);
+            carried.names.push_back(names.take(array.name, array.components == 3));
+        }
+    }
+    return carried;
+}
+
+CarriedArrays carried_cell_arrays(const VtkGrid& grid,
+                                  std::string_view regions,
+                                  std::vector<std::string>& left_out) {
+    FieldNames names(reserved_cell_names(4));
+    CarriedArrays carried;
+    bool has_fibers = false;
+    for (const VtkArray& array : grid.cell_arrays) {
+        if (array.name == regions || !can_carry(array, carried.arrays, left_out)) {
+            continue;
+        }
+        const bool is_vector = array.components == 3;
+        const bool is_fiber = !has_fibers && is_vector && is_fiber_name(array.name);
+        has_fibers = has_fibers || is_fiber;
+        carried.arrays.push_back(array.name);
+        carried.names.push_back(is_fiber ? array.name : names.take(array.name, is_vector));
+    }
+    return carried;
+}
+
+Eigen::MatrixXd values_at(const VtkArray& array, const std::vector<std::int64_t>& tuples) {
+    Eigen::MatrixXd values(array.components, static_cast<Eigen::Index>(tuples.size()));
+    for (std::size_t i = 0; i < tuples.size(); ++i) {
+        for (std::int64_t k = 0; k < array.components; ++k) {
+            values(k, static_cast<Eigen::Index>(i)) =
+                array.values[static_cast<std::size_t>(tuples[i] * array.components + k)];
+        }
+    }
+    return values;
+}
+
+}  // namespace pent::mesher

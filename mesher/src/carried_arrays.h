@@ -1,0 +1,34 @@
+#pragma once
+
+#include "vtk_grid.h"
+
+#include <Eigen/Core>
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace pent::mesher {
+
+/// Arrays of a grid that become quantities of a body.
+struct CarriedArrays {
+    std::vector<std::string> arrays;
+    std::vector<std::string> names;  ///< What each is called there; fibers keep their name.
+};
+
+/// Those of one or three numbers; `left_out` gets what to say of each of the others.
+[[nodiscard]] CarriedArrays carried_point_arrays(const VtkGrid& grid,
+                                                 std::vector<std::string>& left_out);
+
+/// The same of the cells.
+/// @param regions  The array with their labels, which is none of them.
+[[nodiscard]] CarriedArrays carried_cell_arrays(const VtkGrid& grid,
+                                                std::string_view regions,
+                                                std::vector<std::string>& left_out);
+
+/// The values of an array for these of its tuples, a column each.
+[[nodiscard]] Eigen::MatrixXd values_at(const VtkArray& array,
+                                        const std::vector<std::int64_t>& tuples);
+
+}  // namespace pent::mesher
