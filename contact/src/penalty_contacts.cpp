@@ -8,6 +8,7 @@
 #include <pent/dimensions.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace pent::contact {
 
@@ -181,7 +182,8 @@ std::vector<Contact<Dim>> mixed_contacts(const Setting<Dim>& setting,
         });
 }
 
-// Within a body: one contact a vertex, with the nearest facet that is not culled.
+// Within a body: one contact a vertex, with the nearest facet that is not culled, shared with
+// others where the vertex is in front of a valley.
 template <int Dim>
 std::vector<Contact<Dim>> self_contacts(const Setting<Dim>& setting,
                                         int body,
@@ -192,18 +194,31 @@ std::vector<Contact<Dim>> self_contacts(const Setting<Dim>& setting,
     const PairSetting<Dim> pair_setting = setting.of(body, body);
     return setting.shared().template collect<Contact<Dim>>(
         vertices, kChunk, [&](std::size_t i, std::vector<Contact<Dim>>& found) {
-            std::optional<Contact<Dim>> nearest;
+            const std::size_t first_found = found.size();
             for (std::size_t k = begin[i]; k < begin[i + 1]; ++k) {
-                const auto contact = local_contact<Dim, 1, Dim>(
-                    pair_setting, surface.vertices, near[k].vertex, surface.facets, near[k].facet);
-                if (contact
-                    && (!nearest || std::abs(contact->distance) < std::abs(nearest->distance))) {
-                    nearest = contact;
+                if (const auto contact =
+                        local_contact<Dim, 1, Dim>(pair_setting, surface.vertices, near[k].vertex,
+                                                   surface.facets, near[k].facet)) {
+                    found.push_back(*contact);
                 }
             }
-            if (nearest) {
-                found.push_back(*nearest);
+            if (found.size() == first_found) {
+                return;
             }
+            const auto first = found.begin() + static_cast<std::ptrdiff_t>(first_found);
+            const auto is_nearer = [](const Contact<Dim>& a, const Contact<Dim>& b) {
+                return std::abs(a.distance) < std::abs(b.distance);
+            };
+            const auto nearest = std::min_element(first, found.end(), is_nearer);
+            std::rotate(first, nearest, nearest + 1);
+            if (first->distance < 0) {
+                found.erase(first + 1, found.end());
+                return;
+            }
+            found.erase(std::remove_if(first, found.end(),
+                                       [](const Contact<Dim>& c) { return c.distance < 0; }),
+                        found.end());
+            share_contacts<Dim>(found, first_found, setting.distance(), setting.positions);
         });
 }
 

@@ -5,6 +5,7 @@
 #include <Eigen/LU>
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <span>
 
@@ -17,6 +18,13 @@ namespace {
 constexpr double kBalanced = 1e-12;
 constexpr int kMaxExchanges = 1000;
 
+// At which distance a contact as strong as the nearest one would have the energy of this one, m:
+// its gain is the root of what is left of it.
+template <int Dim>
+double felt_distance(const Contact<Dim>& contact, double eps) {
+    return contact.distance + (1 - contact.gain) * (eps - contact.distance);
+}
+
 // What the shares make of all distances and directions.
 template <int Dim>
 struct Mean {
@@ -25,11 +33,13 @@ struct Mean {
     double kappa = 0;
     double spread = 0;  // 1 - |u|^2
     double growth = 1;  // of d by m
+    double eps = 0;
 
     Mean() = default;
-    Mean(std::span<const Contact<Dim>> each, double eps) {
+    Mean(std::span<const Contact<Dim>> each, double distance_of_contact)
+        : eps(distance_of_contact) {
         for (const Contact<Dim>& contact : each) {
-            distance += contact.share * contact.distance;
+            distance += contact.share * felt_distance(contact, eps);
             direction += contact.share * contact.direction;
         }
         kappa = distance * (1 - distance / eps);
@@ -39,7 +49,7 @@ struct Mean {
 
     // How d changes with the share of a contact.
     [[nodiscard]] double rate(const Contact<Dim>& contact) const {
-        return growth * contact.distance + kappa * direction.dot(contact.direction);
+        return growth * felt_distance(contact, eps) + kappa * direction.dot(contact.direction);
     }
 };
 
@@ -96,7 +106,8 @@ void take_part(const Mean<Dim>& mean, const PositionsView<Dim>& positions, Conta
     const Vector<Dim> along = gram.inverse() * (edges.transpose() * mean.direction);
     const Vector<Dim>& own = contact.direction;
     const Vector<Dim> across = mean.direction - mean.direction.dot(own) * own - edges * along;
-    const Vector<Dim> change = mean.growth * own + mean.kappa / contact.distance * across;
+    const Vector<Dim> change =
+        mean.growth * contact.gain * own + mean.kappa / contact.distance * across;
     if (!along.allFinite()) {
         return;  // it has collapsed
     }
@@ -115,7 +126,9 @@ void share_contacts(std::vector<Contact<Dim>>& contacts,
                     double eps,
                     const PositionsView<Dim>& positions) {
     const std::span<Contact<Dim>> each(contacts.data() + first, contacts.size() - first);
+    const double strength = each[0].share;
     for (Contact<Dim>& contact : each) {
+        contact.gain = std::min(1.0, std::sqrt(contact.share / strength));
         contact.share = 0;
     }
     each[0].share = 1;
@@ -132,6 +145,7 @@ void share_contacts(std::vector<Contact<Dim>>& contacts,
                 take_part<Dim>(mean, positions, contact);
                 contact.distance = mean.distance - mean.kappa * mean.spread / 2;
             }
+            contact.share *= strength;
             contacts[kept++] = contact;
         }
     }

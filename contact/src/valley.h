@@ -8,7 +8,7 @@
 
 namespace pent::contact {
 
-/// Shares a vertex among the facets of another body that it lies in front of.
+/// Shares a vertex among the facets that it lies in front of.
 ///
 /// The least of its distances d_i from them has a kink where a valley makes another facet the
 /// nearest one. Instead of it contact takes
@@ -21,10 +21,15 @@ namespace pent::contact {
 /// of the nearest facet has no share, since d_1 <= d_i u_i . u_1 there: so flat and bulging
 /// surfaces keep the least distance.
 ///
+/// A facet whose contact has faded below that of the nearest one, to a part r of its energy,
+/// counts as one that is as far away as that energy tells: eps - sqrt(r) (eps - d_i) is its d_i
+/// above. So it comes and goes evenly.
+///
 /// @param contacts   From `first` on those of one vertex outside, with the penalty: with each facet
 ///                   nearer than eps, the nearest first. Of these stay the ones that have a share:
-///                   the first one as it is, or several that have the distance d and their shares
-///                   p_i, and weights and gains by which they add up to its gradient.
+///                   the first one as it is, or several that have the distance d and their part
+///                   p_i of the share of the first, and weights and gains by which they add up to
+///                   its gradient.
 /// @param eps        Distance of contact, m.
 template <int Dim>
 void share_contacts(std::vector<Contact<Dim>>& contacts,

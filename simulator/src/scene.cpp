@@ -226,10 +226,11 @@ void check_pairs(const std::vector<BodyPair>& pairs, const Scene& scene) {
     }
     for (const BodyPair& pair : pairs) {
         for (const std::string& name : {pair.first, pair.second}) {
-            const std::string nearest = nearest_name(name, names);
-            require(std::find(names.begin(), names.end(), name) != names.end(),
-                    "contact: no body is called \"" + name + "\""
-                        + (nearest.empty() ? "" : "; did you mean \"" + nearest + "\"?"));
+            if (std::find(names.begin(), names.end(), name) == names.end()) {
+                const std::string nearest = nearest_name(name, names);
+                throw Error("contact: no body is called \"" + name + "\""
+                            + (nearest.empty() ? "" : "; did you mean \"" + nearest + "\"?"));
+            }
         }
     }
 }
@@ -261,25 +262,6 @@ std::uint32_t index_of(const Scene& scene, const std::string& body) {
                                     [&](const Body& one) { return one.name == body; });
     assert(found != scene.bodies.end());
     return static_cast<std::uint32_t>(found - scene.bodies.begin());
-}
-
-bool may_touch(const Scene& scene, std::size_t a, std::size_t b) {
-    const std::string& first = scene.bodies[a].name;
-    const std::string& second = scene.bodies[b].name;
-    const auto are_these = [&](const std::string& x, const std::string& y) {
-        return (x == first && y == second) || (x == second && y == first);
-    };
-    const auto has = [&](const std::vector<BodyPair>& pairs) {
-        return std::any_of(pairs.begin(), pairs.end(), [&](const BodyPair& pair) {
-            return are_these(pair.first, pair.second);
-        });
-    };
-    const bool are_tied = std::any_of(
-        scene.attachments.begin(), scene.attachments.end(),
-        [&](const Attachment& tie) { return !tie.contact && are_these(tie.body, tie.target); });
-    const ContactSettings& contact = *scene.contact;
-    return (a != b || contact.self) && !are_tied && !has(contact.ignore)
-           && (contact.only.empty() || has(contact.only));
 }
 
 std::string plane_name(const Plane& plane) {

@@ -8,6 +8,7 @@
 #include "pair_contact.h"
 #include "scenes.h"
 #include "support/host_tasks.h"
+#include "valley.h"
 
 #include <gtest/gtest.h>
 
@@ -92,21 +93,34 @@ protected:
         const PairSetting<kD> setting{view, scene.positions, normals, options.distance, {}, {}};
         std::vector<Contact<kD>> contacts;
         for (std::uint32_t i = 0; i < surface.vertices.cols(); ++i) {
-            std::optional<Contact<kD>> nearest;
+            std::vector<Contact<kD>> of_vertex;
+            std::size_t nearest = 0;
             for (std::uint32_t j = 0; j < surface.facets.cols(); ++j) {
                 if (have_common_vertex<1, kD>(surface.vertices, i, surface.facets, j)) {
                     continue;
                 }
                 const auto contact =
                     local_contact<kD, 1, kD>(setting, surface.vertices, i, surface.facets, j);
-                if (contact
-                    && (!nearest || std::abs(contact->distance) < std::abs(nearest->distance))) {
-                    nearest = contact;
+                if (!contact) {
+                    continue;
+                }
+                of_vertex.push_back(*contact);
+                if (std::abs(contact->distance) < std::abs(of_vertex[nearest].distance)) {
+                    nearest = of_vertex.size() - 1;
                 }
             }
-            if (nearest) {
-                contacts.push_back(*nearest);
+            if (of_vertex.empty()) {
+                continue;
             }
+            const bool is_in_front = of_vertex[nearest].distance >= 0;
+            const std::size_t first = contacts.size();
+            contacts.push_back(of_vertex[nearest]);
+            for (std::size_t k = 0; is_in_front && k < of_vertex.size(); ++k) {
+                if (k != nearest && of_vertex[k].distance >= 0) {
+                    contacts.push_back(of_vertex[k]);
+                }
+            }
+            share_contacts<kD>(contacts, first, options.distance, view);
         }
         for (std::uint32_t i = 0; i < surface.edges.cols(); ++i) {
             for (std::uint32_t j = kD == 3 ? i + 1 : 0; j < surface.ridges.cols(); ++j) {

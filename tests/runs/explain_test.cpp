@@ -10,6 +10,9 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <numbers>
+
 namespace pent::runs {
 namespace {
 
@@ -430,6 +433,30 @@ TEST(Explain, SaysAfterARunWhichStepsWouldDo) {
         EXPECT_EQ(run(scene, {.folder = folder / "run", .force = true}).penetration, "") << i;
     }
     EXPECT_GT(deep, 4);
+}
+
+// With all else turned as it is, a plate goes as deep into a floor, and is as thick.
+TEST(Explain, SaysTheSameOfAPlateAndAFloorThatAreTurned) {
+    const TempFolder folder;
+    write_mesh(folder / "plate.pent", kuhn_box<4>({2, 1, 2, 2}, {1, 0.1, 1, 1}));
+    std::vector<RunReport> reports;
+    for (const double degrees : {0.0, 30.0}) {
+        const double angle = degrees * std::numbers::pi / 180;
+        const Eigen::Vector4d up(-std::sin(angle), std::cos(angle), 0, 0);
+        Scene scene = test::box_scene<4>();
+        scene.bodies[0].mesh = (folder / "plate.pent").string();
+        scene.bodies[0].place.rotate = {{.plane = {0, 1}, .degrees = degrees}};
+        scene.bodies[0].place.translate = 0.02 * up;
+        scene.gravity = -9.8 * up;
+        scene.frames = 5;
+        scene.steps_per_frame = 4;
+        scene.solver.integrator = Integrator::NewtonEuler;
+        scene.obstacles = {{.shape = HalfSpaceObstacle{.normal = up}}};
+        reports.push_back(run(scene, {.folder = folder / "run", .force = true}));
+        EXPECT_NEAR(reports.back().thinnest, 0.1, 1e-9);
+        EXPECT_NE(reports.back().penetration, "");
+    }
+    EXPECT_EQ(reports[0].penetration, reports[1].penetration);
 }
 
 // The recipe of docs/contact.md on three scenes: a box that lies on a floor, one that falls on it,

@@ -2,6 +2,7 @@
 
 #include "falling_bar.h"
 #include "old_report.h"
+#include "record/json_record.h"
 #include "support/messages.h"
 
 #include <pent/runs/run.h>
@@ -52,6 +53,26 @@ TEST_F(ReportFile, IsReadAsItWasWritten) {
     EXPECT_EQ(again.frames[2].non_rigid[0].body, "box");
     EXPECT_EQ(again.bodies[0].non_rigid_max,
               std::max(report_.frames[1].non_rigid[0].value, report_.frames[2].non_rigid[0].value));
+}
+
+// It is written entry by entry: the same bytes as from all of it at once.
+TEST_F(ReportFile, IsTheTextOfItsRecord) {
+    const auto expect_same = [&] {
+        EXPECT_EQ(report_text(report_),
+                  write_record(report_).dump(1, ' ', false, Json::error_handler_t::replace) + "\n");
+    };
+    expect_same();
+    report_.message = "two\nlines of \"a\xff.pent\"";
+    report_.warnings = {"one", "{\n}"};
+    report_.parts.push_back({.created_by = "b", .threads = 3, .isa = "c"});
+    report_.steps[0].constraints.resize(2);
+    expect_same();
+    report_.frames.resize(1);
+    report_.steps.clear();
+    expect_same();
+    report_.frames.clear();
+    report_.bodies.clear();
+    expect_same();
 }
 
 TEST_F(ReportFile, OfVersion010IsRead) {

@@ -4,6 +4,7 @@
 #include "support/crossing_checker.h"
 
 #include <pent/formatted.h>
+#include <pent/simulator/seen_pairs.h>
 
 #include <algorithm>
 #include <cmath>
@@ -234,10 +235,11 @@ private:
 
     template <typename Count>
     int count(const Count& of_pair) const {
+        const simulator::SeenPairs seen(scene_);
         int sum = 0;
         for (std::size_t a = 0; a < surfaces_.size(); ++a) {
             for (std::size_t b = a; b < surfaces_.size(); ++b) {
-                sum += may_touch(scene_, a, b) ? of_pair(surfaces_[a], surfaces_[b]) : 0;
+                sum += seen.may_touch(a, b) ? of_pair(surfaces_[a], surfaces_[b]) : 0;
             }
         }
         return sum;

@@ -46,6 +46,9 @@ TEST(Signal, OfASineGoesUpAndDownBetweenNothingAndAllOncePerPeriod) {
     EXPECT_NEAR(signal_at(activation, 0.375, 0), 0, 1e-15);
     EXPECT_NEAR(signal_at(activation, 0.125, 0.5), 0, 1e-15);
     EXPECT_NEAR(signal_at(activation, 0.7, 0), signal_at(activation, 0.2, 0), 1e-14);
+    // What is late is as it has been.
+    EXPECT_NEAR(signal_at(activation, 0.125, 0.25), signal_at(activation, 0, 0), 1e-15);
+    EXPECT_NEAR(signal_at(activation, 0.2, 0.1), signal_at(activation, 0.15, 0), 1e-15);
     activation.phase = 0.25;
     EXPECT_NEAR(signal_at(activation, 0, 0), 1, 1e-15);
 }
@@ -79,6 +82,8 @@ TYPED_TEST(ActiveStrainTest, StretchesAlongTheFiberAndPreservesVolumeIfAsked) {
     Fa = active_deformation<kDim>(activation, 0.5, d);
     EXPECT_LT((Fa * d - 0.85 * d).norm(), 1e-15);
     EXPECT_NEAR(Fa.determinant(), 1, 1e-14);
+    EXPECT_EQ(active_deformation<kDim>(activation, 1, Vector<kDim>::Zero()),
+              Matrix::Identity());  // without a fiber
     activation.fibers = Fibers::None;
     EXPECT_LT((active_deformation<kDim>(activation, 1, d) - 0.7 * Matrix::Identity()).norm(),
               1e-15);

@@ -71,6 +71,31 @@ double lead(const Simulation<Dim>& simulation) {
     return center(0) - center(1);
 }
 
+// What is said of forces is that of the stretch, in motion too, as of a state that is restored:
+// what is damped is of the step. Elastic forces have no sum.
+TYPED_TEST(AttachmentMotion, HasForcesWithoutDampingBetweenSteps) {
+    constexpr int kDim = TypeParam::value;
+    for (const Integrator integrator : kWithInertia) {
+        Scene scene = twins<kDim>(50);
+        scene.solver.integrator = integrator;
+        scene.attachments[0].damping = 5;
+        scene.bodies[0].velocity = Eigen::VectorXd::Unit(kDim, 0);
+        Simulation<kDim> simulation = start<kDim>(scene);
+        for (int i = 0; i < 3; ++i) {
+            ASSERT_TRUE(simulation.step().is_accepted);
+        }
+        const Positions<kDim> forces = simulation.forces(0);
+        const Eigen::Matrix<double, kDim, 1> pull =
+            50 * (simulation.positions(1) - simulation.positions(0)).rowwise().sum();
+        EXPECT_GT(pull.norm(), 1);
+        EXPECT_LT((forces.rowwise().sum() - pull).norm(), 1e-9 * pull.norm());
+        EXPECT_EQ(simulation.energies().of("attachment damping"), 0);
+        Simulation<kDim> other = start<kDim>(scene);
+        other.restore(simulation.save());
+        EXPECT_EQ(other.forces(0), forces);
+    }
+}
+
 // Two masses on springs of N k in all: x = v / omega e^(-gamma t) sin(omega t) with
 // omega_0^2 = N k / mu, mu = m1 m2 / (m1 + m2), gamma = N c / (2 mu), omega^2 = omega_0^2 -
 // gamma^2.

@@ -168,6 +168,7 @@ TYPED_TEST(AttachmentsTest, BreakWhereTheyPullTooHardAndNowhereElse) {
     constexpr int kDim = TypeParam::value;
     Scene scene = tied_cubes<kDim>(RestOffset::Zero);
     scene.attachments[0].break_force = 300 * 0.04;  // all that overhang pull harder
+    scene.attachments[0].to = 50;
     const Setting<kDim> setting(scene, 2);
     Attachments<kDim> attachments(setting.workers, scene, setting.bodies);
     static_cast<void>(value_of<kDim>(attachments, setting.bodies.rest()));
@@ -181,28 +182,96 @@ TYPED_TEST(AttachmentsTest, BreakWhereTheyPullTooHardAndNowhereElse) {
     EXPECT_NEAR(after.largest_force, 300 * 0.03, 1e-9);
     EXPECT_EQ(freed.size(), 2 * static_cast<std::size_t>(after.broken));
     EXPECT_TRUE(attachments.break_springs().empty());
+    // What is broken couples nothing, nor does it wake when it goes.
+    static_cast<void>(attachments.set_time({50, 50.01}));
+    Couplings couplings;
+    attachments.add_couplings(couplings);
+    EXPECT_EQ(couplings.driven.size(), 2);
+    attachments.set_broken(std::vector<std::uint8_t>(attachments.broken().size(), 1));
+    Couplings none;
+    attachments.add_couplings(none);
+    EXPECT_TRUE(none.pairs.empty() && none.driven.empty());
 }
 
 TYPED_TEST(AttachmentsTest, AreThereInStepsThatBeginFromFromAndBeforeTo) {
     constexpr int kDim = TypeParam::value;
-    Scene scene = tied_cubes<kDim>(RestOffset::Zero);
-    scene.frames_per_second = 10;
-    scene.attachments[0].max_distance = 1;
-    scene.attachments[0].from = 0.3;
-    scene.attachments[0].to = 0.6;
-    const Setting<kDim> setting(scene, 1);
-    Attachments<kDim> attachments(setting.workers, scene, setting.bodies);
-    for (int step = 0; step < 10; ++step) {
-        const bool is_there = step >= 3 && step < 6;
-        // However the times of steps are rounded.
-        for (const double begin : {0.1 * step, std::nextafter(0.1 * step, 0.0)}) {
-            static_cast<void>(attachments.set_time({begin, begin + 0.1}));
-            EXPECT_EQ(value_of<kDim>(attachments, setting.bodies.rest()) > 0, is_there) << step;
+    for (const bool is_to_body : {false, true}) {
+        Scene scene = tied_cubes<kDim>(RestOffset::Zero);
+        scene.frames_per_second = 10;
+        scene.attachments[0].max_distance = 1;
+        scene.attachments[0].from = 0.3;
+        scene.attachments[0].to = 0.6;
+        if (!is_to_body) {
+            scene.attachments[0].target.clear();
+        }
+        const Setting<kDim> setting(scene, 1);
+        Attachments<kDim> attachments(setting.workers, scene, setting.bodies);
+        const Positions<kDim> x = shaken<kDim>(setting.bodies.rest(), 0.05, 8);
+        for (int step = 0; step < 10; ++step) {
+            const bool is_there = step >= 3 && step < 6;
+            const bool is_changing = step == 3 || step == 6;
+            bool has_changed = is_changing;
+            // However the times of steps are rounded.
+            for (const double begin : {0.1 * step, std::nextafter(0.1 * step, 0.0)}) {
+                EXPECT_EQ(attachments.set_time({begin, begin + 0.1}), has_changed) << step;
+                EXPECT_EQ(value_of<kDim>(attachments, x) > 0, is_there) << step;
+                Couplings couplings;
+                attachments.add_couplings(couplings);
+                EXPECT_EQ(couplings.pairs.size(), is_there && is_to_body ? 1U : 0U) << step;
+                // What comes or goes wakes both.
+                EXPECT_EQ(couplings.driven.size(), is_changing ? 2U : 0U) << step;
+                has_changed = false;
+            }
+        }
+    }
+}
+
+// 90 degrees about the middle of where they are, or with one point, which the motion then carries
+// alone; and nothing is driven once the motion is over.
+TYPED_TEST(AttachmentsTest, ToPointsInSpaceGoWithTheirMotion) {
+    constexpr int kDim = TypeParam::value;
+    const Vector<kDim> point = Vector<kDim>::LinSpaced(1, 2);
+    Matrix<kDim> turn = Matrix<kDim>::Identity();
+    turn(0, 0) = turn(kDim - 1, kDim - 1) = 0;
+    turn(kDim - 1, 0) = 1;
+    turn(0, kDim - 1) = -1;
+    for (const RestOffset offset : {RestOffset::Keep, RestOffset::Zero}) {
+        Scene scene = tied_cubes<kDim>(offset);
+        scene.attachments.push_back(scene.attachments[0]);
+        scene.attachments[0].from = 100;  // of the first there is nothing yet
+        Attachment& attachment = scene.attachments[1];
+        attachment.target.clear();
+        attachment.motion = {test::still(kDim)};
+        attachment.motion[0].translate[1] = 3;
+        attachment.motion[0].rotate = {{.plane = {0, kDim - 1}, .degrees_per_s = 90}};
+        attachment.motion[0].to = 1;
+        if (offset == RestOffset::Zero) {
+            attachment.point = point;
+        }
+        const Setting<kDim> setting(scene, 2);
+        Attachments<kDim> attachments(setting.workers, scene, setting.bodies);
+        std::vector<Vector<kDim>> tied;
+        Vector<kDim> middle = Vector<kDim>::Zero();
+        for (Eigen::Index v = setting.bodies.first_vertex[1]; v < setting.bodies.rest().cols();
+             ++v) {
+            if (setting.bodies.rest()(1, v) < 0.6) {
+                tied.push_back(setting.bodies.rest().col(v));
+                middle += tied.back() / std::pow(3, kDim - 1);
+            }
+        }
+        double expected = 0;
+        for (const Vector<kDim>& place : tied) {
+            const Vector<kDim> anchor =
+                offset == RestOffset::Zero ? point : Vector<kDim>(middle + turn * (place - middle));
+            expected += 150 * (place - anchor - 3 * Vector<kDim>::Unit(1)).squaredNorm();
+        }
+        for (const double begin : {0.99, 5.0}) {
+            static_cast<void>(attachments.set_time({begin, begin + 0.01}));
+            EXPECT_NEAR(value_of<kDim>(attachments, setting.bodies.rest()), expected,
+                        1e-12 * expected);
             Couplings couplings;
             attachments.add_couplings(couplings);
-            EXPECT_EQ(couplings.pairs.size(), is_there ? 1U : 0U) << step;
-            // What comes or goes wakes both.
-            EXPECT_EQ(couplings.driven.size(), step == 3 || step == 6 ? 2U : 0U) << step;
+            EXPECT_EQ(couplings.driven.empty(), begin > 1);
         }
     }
 }

@@ -4,6 +4,10 @@
 
 #include <gtest/gtest.h>
 
+#include <cstdint>
+#include <set>
+#include <vector>
+
 namespace pent::simulator {
 namespace {
 
@@ -90,6 +94,24 @@ TEST(Bodies, HaveTheMassOfTheirVolume) {
     EXPECT_NEAR(mass(0), two_bars().bodies[0].material.density * 2 * volume, 1e-12 * mass(0));
     EXPECT_NEAR(mass(1), 500 * 3 * volume * 16, 1e-12 * mass(1));
     EXPECT_GT(bodies.masses.minCoeff(), 0);
+}
+
+// Labels in any order, with gaps: what has one label is one column, and no other body's.
+TEST(Bodies, NumberTheirColumnsOneAfterTheOtherHoweverTheseAreLabeled) {
+    SimplexMesh<3> mesh = pent::test::kuhn_box<3>({1, 1, 1}, {1, 1, 1});
+    mesh.columns = {9, 4, 9, 30, 4, 7, 2, 7};
+    const std::vector<std::uint32_t> columns = number_columns<3>({mesh, mesh}).columns;
+    ASSERT_EQ(columns.size(), 16);
+    std::set<std::uint32_t> all;
+    for (std::size_t a = 0; a < 16; ++a) {
+        all.insert(columns[a]);
+        for (std::size_t b = 0; b < 16; ++b) {
+            const bool is_one = a / 8 == b / 8 && mesh.columns[a % 8] == mesh.columns[b % 8];
+            EXPECT_EQ(columns[a] == columns[b], is_one) << a << " " << b;
+        }
+    }
+    EXPECT_EQ(all.size(), 10);
+    EXPECT_EQ(*all.rbegin(), 9);
 }
 
 TEST(Bodies, StartWithTheVelocitiesOfTheScene) {

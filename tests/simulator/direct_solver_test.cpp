@@ -20,9 +20,20 @@ TEST(DirectSolver, LeavesTheResidualOfRoundingWhateverBlocksAreStoredIn) {
         const LinearSolution<kDim> solution = problem.solve(*problem.direct(), 0.5);
         // Backward stable: the solution of a matrix a few roundings in double away.
         const double roundings = 4 * std::numeric_limits<double>::epsilon();
+        EXPECT_GT(solution.report.residual, 0);
         EXPECT_LT(solution.report.residual * problem.system.right().norm(),
                   roundings * problem.dense().norm() * solution.x.norm());
     }
+}
+
+TEST(DirectSolver, FindsNothingWhereNothingIsAskedFor) {
+    SpringyBox problem(Precision::Double);
+    problem.system.right().setZero();
+    const BlockVector<kDim> guess = BlockVector<kDim>::Ones(kDim, problem.b.cols());
+    const LinearSolution<kDim> solution =
+        problem.direct()->solve(problem.system, guess, {.tolerance = 0.5}, guess);
+    EXPECT_TRUE(solution.report.has_converged);
+    EXPECT_TRUE(solution.x.isZero(0));
 }
 
 // What it says it takes beside elements is what decides.

@@ -53,16 +53,22 @@ TYPED_TEST(ForceLoadsTest, AddUpToTheForceThroughTheCenterOfMassOfTheSelection) 
 
 TYPED_TEST(ForceLoadsTest, FollowTheirKeyframesAndSayThatTheBodyIsDriven) {
     constexpr int kDim = TypeParam::value;
-    const Setting<kDim> setting(pushed_scene<kDim>(), 2);
+    Scene scene = pushed_scene<kDim>();
+    scene.bodies.insert(scene.bodies.begin(), scene.bodies[0]);
+    scene.bodies[0].name = "other";
+    const Setting<kDim> setting(scene, 2);
     ForceLoads<kDim> loads(setting.scene, setting.bodies);
     const Positions<kDim>& x = setting.bodies.rest();
     const Positions<kDim> full = gradient_of<kDim>(loads, x);
+    const Eigen::Index half = setting.bodies.first_vertex[1];
+    EXPECT_TRUE(full.leftCols(half).isZero(0));
+    EXPECT_GT(full.rightCols(half).norm(), 1);
     EXPECT_FALSE(loads.set_time({0, 0}));
     EXPECT_TRUE(loads.set_time({0.9, 1.1}));
     EXPECT_LT((gradient_of<kDim>(loads, x) - 0.25 * full).norm(), 1e-14 * full.norm());
     Couplings during;
     loads.add_couplings(during);
-    EXPECT_EQ(during.driven, std::vector<std::size_t>{0});
+    EXPECT_EQ(during.driven, std::vector<std::size_t>{1});
     EXPECT_FALSE(loads.set_time({1.1, 1.2}));
     Couplings behind;
     loads.add_couplings(behind);

@@ -43,6 +43,15 @@ TYPED_TEST(ForceScalesTest, OfOneMaterialAreAllTheSame) {
     EXPECT_TRUE(scales.weights(setting.dofs).empty());
 }
 
+// However many vertices a body has: what counts is how much belongs to each.
+TYPED_TEST(ForceScalesTest, OfOneMaterialAndCellsOfOneSizeAreAllTheSame) {
+    constexpr int kDim = TypeParam::value;
+    const Scene scene = two_materials<kDim>(1, 1);
+    const Bodies<kDim> bodies =
+        make_bodies<kDim>(scene, {test::cube<kDim>(2), test::cube<kDim>(kDim == 3 ? 6 : 4)});
+    EXPECT_EQ(ForceScales<kDim>(bodies).norms(bodies.rest()).size(), 1);
+}
+
 // Two bodies that are strained alike have as much of the norm each.
 TYPED_TEST(ForceScalesTest, LetBodiesThatAreStrainedAlikeCountAlike) {
     constexpr int kDim = TypeParam::value;

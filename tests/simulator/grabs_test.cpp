@@ -160,6 +160,68 @@ TYPED_TEST(GrabsTest, PullNoHarderThanTheyMayHoweverFarAndFastTheirAnchorGoes) {
     }
 }
 
+// Between steps the energy of a pull goes on from that of the spring where it is at its limit, and
+// grows by what the limit does on the way.
+TYPED_TEST(GrabsTest, HaveAnEnergyWithoutAJumpWhereTheyAreAtTheirLimit) {
+    constexpr int kDim = TypeParam::value;
+    const Setting<kDim> setting = two_bodies<kDim>();
+    const Positions<kDim>& x = setting.bodies.rest();
+    auto held = holding<kDim>(setting.bodies, 30);  // at a stretch of 0.1 m
+    held.grab.anchor = held.from;
+    Grabs<kDim> grabs(setting.scene, setting.bodies);
+    grabs.set({held}, 0);
+    static_cast<void>(grabs.set_time({0, 0.01}));
+    Grabs<kDim> one(setting.scene, setting.bodies);
+    auto still = held;
+    still.grab.max_force = 1e9;
+    one.set({still}, 0);
+    static_cast<void>(one.set_time({0, 0.01}));
+    const Vector<kDim> force = gradient_of<kDim>(one, x).rowwise().sum();
+    const Vector<kDim> along = force.normalized();
+    const auto at = [&](double stretch) {
+        return Positions<kDim>(x.colwise() + (stretch - force.norm() / 300) * along);
+    };
+    EXPECT_NEAR(value_of<kDim>(grabs, at(0.0999)), 150 * 0.0999 * 0.0999, 1e-9);
+    EXPECT_NEAR(value_of<kDim>(grabs, at(0.1001)), 1.5 + 30 * 0.0001, 1e-9);
+    EXPECT_NEAR(value_of<kDim>(grabs, at(0.7)), 1.5 + 30 * 0.6, 1e-9);
+}
+
+// Where the point goes along with the anchor nothing is damped: 0.1 m in 10 ms.
+TYPED_TEST(GrabsTest, DampWhatMovesOtherwiseThanTheirAnchor) {
+    constexpr int kDim = TypeParam::value;
+    const Setting<kDim> setting = two_bodies<kDim>();
+    const double dt = setting.scene.dt();
+    const Positions<kDim>& x = setting.bodies.rest();
+    auto held = holding<kDim>(setting.bodies);
+    held.grab.anchor = held.from + 0.1 * Vector<kDim>::Unit(1);
+    Grabs<kDim> grabs(setting.scene, setting.bodies);
+    grabs.set({held}, 0);
+    static_cast<void>(grabs.set_time({0, dt}));
+    const Positions<kDim> still = 0 * x;
+    static_cast<void>(grabs.begin_step({x, still, x, still, dt, 1 / dt, false}));
+    Positions<kDim> along = x;
+    along.row(1).array() += 0.1;
+    static_cast<void>(value_of<kDim>(grabs, along));
+    EXPECT_NEAR(grabs.energies()[1].energy, 0, 1e-12);
+    EXPECT_GT(grabs.energies()[0].energy, 1);
+    static_cast<void>(value_of<kDim>(grabs, x));
+    EXPECT_NEAR(grabs.energies()[1].energy, 0.5 * 7 * dt * std::pow(0.1 / dt, 2), 1e-9);
+    // The step begins with another value than there was without damping, or with all of the force.
+    for (const double damping : {0.0, 7.0}) {
+        for (const double most : {1e9, 20.0}) {
+            held.grab.damping = damping;
+            held.grab.max_force = most;
+            grabs.set({held}, 0);
+            static_cast<void>(grabs.set_time({0, dt}));
+            EXPECT_EQ(grabs.begin_step({x, still, x, still, dt, 1 / dt, false}),
+                      damping > 0 || most < 90);
+            // Nor is it that once the step is over.
+            EXPECT_EQ(grabs.set_time({0, dt}), damping > 0 || most < 90);
+            EXPECT_FALSE(grabs.set_time({0, dt}));
+        }
+    }
+}
+
 TYPED_TEST(GrabsTest, TakeTheirAnchorStraightToItsPlaceAndWakeMeanwhile) {
     constexpr int kDim = TypeParam::value;
     const Setting<kDim> setting = two_bodies<kDim>();
@@ -180,7 +242,7 @@ TYPED_TEST(GrabsTest, TakeTheirAnchorStraightToItsPlaceAndWakeMeanwhile) {
     const Vector<kDim> at_end = pull(8 * dt);
     EXPECT_LT((pull(7.25 * dt) - at_end + 0.075 * Vector<kDim>::Unit(0)).norm(), 1e-12);
     EXPECT_EQ(driven(), std::vector<std::size_t>{1});
-    grabs.arrive(8 * dt);
+    grabs.arrive();
     EXPECT_EQ(pull(8 * dt), at_end);
     EXPECT_EQ(pull(9 * dt), at_end);
     EXPECT_TRUE(driven().empty());
@@ -212,6 +274,37 @@ TYPED_TEST(GrabsTest, BearWhatStrainsTheCellsAroundTheirPoint) {
         }
     }
     FAIL() << "the cube has no inner vertex";
+}
+
+// Of the material of the cell, in whichever body and region it is.
+TYPED_TEST(GrabsTest, BearWhatStrainsTheMaterialAtTheirPoint) {
+    constexpr int kDim = TypeParam::value;
+    Scene scene = test::two_cubes<kDim>(0.03);
+    scene.contact.reset();
+    const Setting<kDim> soft(scene, 2);
+    Material stiff = scene.bodies[1].material;
+    stiff.lame = lame_from_young(kDim, 1e7, 0.2);
+    scene.bodies[1].regions = {
+        {.name = "stiff",
+         .select = {HalfSpaceSelection{.normal = Eigen::VectorXd::Unit(kDim, 1), .offset = 0.78}},
+         .material = stiff}};
+    const Setting<kDim> mixed(scene, 2);
+    for (Body& body : scene.bodies) {
+        body.regions.clear();
+        body.material = stiff;
+    }
+    const Setting<kDim> hard(scene, 2);
+    for (int body = 0; body < 2; ++body) {
+        const auto& mesh = mixed.bodies.meshes[static_cast<std::size_t>(body)];
+        for (Eigen::Index cell = 0; cell < mesh.cell_count(); ++cell) {
+            BodyPoint<kDim> point{.body = body, .cell = cell};
+            point.weights.setConstant(1.0 / (kDim + 1));
+            const double height = mesh.positions(1, mesh.cells.col(cell)).mean();
+            const Setting<kDim>& alike = body == 1 && height < 0.78 ? hard : soft;
+            EXPECT_NEAR(bearable_force(mixed.bodies, point) / bearable_force(alike.bodies, point),
+                        1, 1e-12);
+        }
+    }
 }
 
 TYPED_TEST(GrabsTest, DoNothingWithoutAny) {

@@ -62,6 +62,47 @@ TYPED_TEST(HeldElements, HoldBackByTheStressOfTheirStretch) {
     }
 }
 
+// A constraint has one side from the start, a host all else, which moves with nothing.
+TYPED_TEST(HeldElements, HoldBackAHostToo) {
+    constexpr int kDim = TypeParam::value;
+    constexpr double kStretch = 1.2;
+    for (const ElementKind kind :
+         {ElementKind::Linear, ElementKind::Smoothed, ElementKind::Quadratic}) {
+        Scene scene = test::box_scene<kDim>();
+        scene.solver.elements = kind;
+        scene.constraints = {plane_at<kDim>(0, 0)};
+        Simulation<kDim> simulation(scene, {test::cube_for<kDim>(scene, 2)}, {.threads = 2});
+        Positions<kDim> x = simulation.positions(0);
+        x.row(0) *= kStretch;
+        std::vector<std::uint32_t> others;
+        std::vector<std::uint32_t> far;
+        for (std::uint32_t vertex = 0; vertex < x.cols(); ++vertex) {
+            if (x(0, vertex) > 0) {
+                others.push_back(vertex);
+            }
+            if (x(0, vertex) > 0.9 * kStretch * kSide) {
+                far.push_back(vertex);
+            }
+        }
+        simulation.set_targets(0, others, x(Eigen::all, others));
+        const StepReport report = simulation.step();
+        ASSERT_TRUE(report.is_accepted) << report.failure;
+        Eigen::MatrixXd F = Eigen::MatrixXd::Identity(kDim, kDim);
+        F(0, 0) = kStretch;
+        const Material& material = scene.bodies[0].material;
+        const double energy = std::pow(kSide, kDim) * energy_density(material, F);
+        const double force = std::pow(kSide, kDim - 1) * stress(material, F)(0, 0);
+        EXPECT_NEAR(report.energies.of("elastic"), energy, 1e-10 * energy);
+        EXPECT_NEAR(report.constraints[0].force[0], -force, 1e-10 * force);
+        const Positions<kDim> pulls = simulation.forces(0);
+        EXPECT_NEAR(pulls(0, far).sum(), -force, 1e-10 * force);
+        // Nothing is left of it where the host lets go.
+        simulation.release(0, others);
+        EXPECT_NEAR(simulation.energies().of("elastic"), energy, 1e-10 * energy);
+        EXPECT_LT((simulation.forces(0) - pulls).norm(), 1e-12 * force);
+    }
+}
+
 // Of a body that is grabbed as a whole while it swings, and let go.
 TYPED_TEST(HeldElements, KeepEnergyAndForcesWhenAGripBeginsAndEnds) {
     constexpr int kDim = TypeParam::value;

@@ -115,6 +115,10 @@ TEST(HeldVertices, AreHeldAlwaysWhereNothingEnds) {
     const HeldVertices<4> longer(scene, bodies);
     EXPECT_FALSE(longer.is_kinematic(0));
     EXPECT_TRUE(longer.is_kinematic(1));
+    scene.constraints[2].from = scene.dt();  // free in the first step
+    const HeldVertices<4> later(scene, bodies);
+    EXPECT_EQ(marked(later.always()), marked(held.always()));
+    EXPECT_FALSE(later.is_kinematic(1));
 }
 
 // The velocity of what is given is the derivative of where it is, by central differences.

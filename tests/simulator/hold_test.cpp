@@ -63,6 +63,12 @@ TYPED_TEST(Hold, BeginsWhereVerticesAreThenAndEndsWithThemFree) {
         Scene scene = falling_box<kDim>();
         scene.solver.integrator = integrator;
         scene.constraints = {left<kDim>(0.05, 0.1)};
+        for (const double to : {0.03, 0.05}) {  // motions that are over by then move nothing
+            Motion over = still(kDim);
+            over.translate[0] = 1;
+            over.to = to;
+            scene.constraints[0].motion.push_back(over);
+        }
         Simulation<kDim> simulation(scene, {cube<kDim>()});
         const std::int64_t all = simulation.mesh(0).vertex_count();
         Positions<kDim> before = left_side(simulation);
@@ -239,6 +245,16 @@ TEST(Holds, OfOneVertexAtOneTimeAreRefused) {
     pent::test::expect_contains(
         pent::test::error_of([&] { Simulation<3>(scene, {cube<3>()}); }),
         {"vertex", "held by two constraints at one time", "let one end before the other begins"});
+    // Of the second body, whose vertices are counted from its own first.
+    scene.bodies.push_back(scene.bodies[0]);
+    scene.bodies[1].name = "other";
+    for (Constraint& constraint : scene.constraints) {
+        constraint.body = "other";
+    }
+    pent::test::expect_contains(pent::test::error_of([&] {
+                                    Simulation<3>(scene, {cube<3>(), cube<3>()});
+                                }),
+                                {"vertex 0 of body \"other\" is held by two constraints"});
 }
 
 // Also where no step begins while both hold: other steps make no other scene of it.

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <functional>
 #include <limits>
 #include <string>
@@ -51,18 +52,25 @@ TYPED_TEST(HostChecks, SayWhatIsNotRightAndNothingHasChanged) {
         {[&] { simulation.set_targets(0, {0}, nan); }, "finite numbers"},
         {[&] { simulation.release(3, {0}); }, "body 3 of 1"},
         {[&] { simulation.set_forces(0, one); }, "forces of 1 vertices"},
+        {[&] { simulation.set_forces(1, simulation.positions(0)); }, "body 1 of 1"},
         {[&] { simulation.set_gravity(nan.col(0)); }, "gravity must be finite"},
         {[&] { simulation.move_grab(7, one.col(0)); }, "there is no grab 7"},
+        {[&] { simulation.move_grab(7, nan.col(0)); }, "anchor of a grab must be finite"},
         {[&] { simulation.remove_grab(7); }, "there is no grab 7"},
         {[&] { simulation.remove_obstacle(0); }, "obstacle 0 of 0"},
         {[&] { simulation.remove_body(1); }, "body 1 of 1"},
         {[&] { simulation.remove_body(0); }, "no body"},
         {with([](auto& g) { g.point.body = 4; }), "body 4 of 1"},
-        {with([](auto& g) { g.point.cell = 1000; }), "cell 1000 of"},
+        {with([&](auto& g) { g.point.cell = simulation.mesh(0).cell_count(); }), " of body 0"},
+        {with([](auto& g) { g.point.cell = -1; }), "cell -1 of"},
         {with([](auto& g) { g.point.weights *= 2; }), "the sum 2"},
+        {with([](auto& g) { g.point.weights.template head<2>() += Eigen::Vector2d(-2, 2); }),
+         "the least is -"},
         {with([](auto& g) { g.anchor[0] /= 0; }), "anchor of a grab must be finite"},
         {with([](auto& g) { g.stiffness = 0; }), "stiffness 0"},
+        {with([](auto& g) { g.stiffness = INFINITY; }), "stiffness inf"},
         {with([](auto& g) { g.damping = -1; }), "damping -1"},
+        {with([](auto& g) { g.damping = INFINITY; }), "damping inf"},
         {with([](auto& g) { g.max_force = 0; }), "max_force 0"},
     };
     for (const auto& [wrong, text] : wrongs) {
@@ -74,7 +82,9 @@ TYPED_TEST(HostChecks, SayWhatIsNotRightAndNothingHasChanged) {
 
 TEST(HostStates, ThatNoSimulationHasAreRefused) {
     Simulation<3> simulation(floating_cube<3>(), {cube<3>(1)});
-    static_cast<void>(simulation.add_grab(corner(simulation, 0)));
+    for (int i = 0; i < 2; ++i) {
+        static_cast<void>(simulation.add_grab(corner(simulation, 0)));
+    }
     simulation.set_targets(0, {1, 3}, simulation.positions(0).leftCols(2));
     const Snapshot<3> good = simulation.save();
     const auto refused = [&](const auto& change) {
@@ -87,10 +97,16 @@ TEST(HostStates, ThatNoSimulationHasAreRefused) {
                                 {"gravity"});
     pent::test::expect_contains(refused([&](auto& h) { h.forces.setOnes(3, 2); }), {"forces of 2"});
     pent::test::expect_contains(refused([&](auto& h) { h.held[1] = 8; }), {"below 8"});
-    pent::test::expect_contains(refused([&](auto& h) { h.held[1] = 0; }), {"increase"});
+    for (const std::uint32_t second : {0U, 1U}) {  // behind 1
+        pent::test::expect_contains(refused([&](auto& h) { h.held[1] = second; }), {"increase"});
+    }
     pent::test::expect_contains(refused([&](auto& h) { h.targets.setOnes(3, 1); }),
                                 {"targets of 1"});
     pent::test::expect_contains(refused([&](auto& h) { h.next_grab = 1; }), {"grab 1"});
+    pent::test::expect_contains(refused([&](auto& h) { h.grabs[0].from[2] = nan; }),
+                                {"grab 1", "finite anchors"});
+    pent::test::expect_contains(refused([&](auto& h) { h.grabs[1].id = 1; }),
+                                {"grab 1", "increase from 2 to 2"});
     pent::test::expect_contains(refused([&](auto& h) { h.grabs[0].grab.max_force.reset(); }),
                                 {"max_force"});
     pent::test::expect_contains(refused([&](auto& h) { h.grabs[0].grab.point.body = 1; }),

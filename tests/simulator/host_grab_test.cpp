@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <cstdint>
+#include <map>
+
 // Bodies that a host pulls by springs.
 
 namespace pent::simulator {
@@ -56,6 +59,29 @@ TYPED_TEST(HostGrab, GivesABodyTheImpulseOfItsGrabAndNoOther) {
         // What the simulation says of forces is the same.
         EXPECT_LT((simulation.forces(0).rowwise().sum() - force).norm(), 1e-8 * force.norm());
         before += gained;
+    }
+}
+
+// Of three grabs of one point, each towards a place of its own, one is removed after the other.
+TYPED_TEST(HostGrab, PullsNoMoreOnceItIsRemovedAndTheOthersDo) {
+    constexpr int kDim = TypeParam::value;
+    Simulation<kDim> simulation(floating_cube<kDim>(), {cube<kDim>(1)});
+    const Grab<kDim> grab = corner(simulation, 0);
+    std::map<std::uint64_t, Vector<kDim>> anchors;
+    for (int axis = 0; axis < 3; ++axis) {
+        Grab<kDim> one = grab;
+        one.anchor += 0.1 * Vector<kDim>::Unit(axis);
+        anchors[simulation.add_grab(one)] = one.anchor;
+    }
+    for (const std::uint64_t removed : {2, 3, 1}) {
+        simulation.remove_grab(removed);
+        EXPECT_EQ(anchors.erase(removed), 1);
+        take_step(simulation);
+        Vector<kDim> force = Vector<kDim>::Zero();
+        for (const auto& [id, anchor] : anchors) {
+            force += grab.stiffness * (anchor - place_of(simulation, grab.point));
+        }
+        EXPECT_LT((simulation.forces(0).rowwise().sum() - force).norm(), 1e-8 * grab.stiffness);
     }
 }
 

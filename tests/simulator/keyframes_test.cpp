@@ -62,6 +62,28 @@ TEST(Keyframes, MakeACurveWithoutKinksThatStaysBetweenItsNeighbors) {
     }
 }
 
+// The curve hangs on the differences of times alone, and on their ratios.
+TEST(Keyframes, MakeTheSameCurveByAnyClock) {
+    for (unsigned seed = 0; seed < 20; ++seed) {
+        const std::vector<Keyframe> keyframes = any_keyframes(seed);
+        std::vector<Keyframe> later = keyframes;
+        for (Keyframe& keyframe : later) {
+            keyframe.time = 2 * keyframe.time + 5;
+        }
+        for (double time = 0; time < 10; time += 0.07) {
+            EXPECT_NEAR(factor_at(later, 2 * time + 5), factor_at(keyframes, time), 1e-12);
+        }
+    }
+}
+
+// Between the second of them and the last but one, where slopes have something on both sides.
+TEST(Keyframes, OnALineMakeTheLine) {
+    const std::vector<Keyframe> line = {{1, 2}, {2, 4}, {2.5, 5}, {5, 10}, {6, 12}};
+    for (double time = 2; time <= 5; time += 0.03) {
+        EXPECT_NEAR(factor_at(line, time), 2 * time, 1e-13);
+    }
+}
+
 // Rises in one direction keep going through a keyframe between them.
 TEST(Keyframes, DoNotStopWhereTheCurveGoesOn) {
     const std::vector<Keyframe> rising = {{0, 0}, {1, 1}, {3, 2}};

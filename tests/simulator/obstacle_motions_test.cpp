@@ -77,8 +77,31 @@ TYPED_TEST(ObstacleMotionsTest, LeaveWhatDoesNotMoveToTheBit) {
     EXPECT_EQ(std::get<Cavity<kDim>>(later[2]).center,
               Vector<kDim>(std::get<CavityObstacle>(scene.obstacles[2].shape).center));
     scene.obstacles.resize(2);
+    EXPECT_TRUE(ObstacleMotions<kDim>(scene).is_any());  // the first, not the last
     scene.obstacles[0].motion.clear();
     EXPECT_FALSE(ObstacleMotions<kDim>(scene).is_any());
+}
+
+// Its axes are those of the same box near the origin, but for what is rounded of its place: they
+// stay a rotation.
+TYPED_TEST(ObstacleMotionsTest, KeepABoxABoxHoweverFarAwayItTurns) {
+    constexpr int kDim = TypeParam::value;
+    Scene scene = test::box_scene<kDim>();
+    const Eigen::VectorXd sides = Eigen::VectorXd::LinSpaced(kDim, 1, 2);
+    Motion turn = test::still(kDim);
+    turn.rotate = {{.plane = {0, 1}, .degrees_per_s = 50},
+                   {.plane = {kDim - 1, 1}, .degrees_per_s = 30}};
+    for (const double place : {0.0, 1e8}) {
+        scene.obstacles.push_back(
+            {.shape = BoxObstacle{.center = Eigen::VectorXd::Constant(kDim, place), .sides = sides},
+             .motion = {turn}});
+    }
+    const auto later = ObstacleMotions<kDim>(scene).at(0.7);
+    const auto& near = std::get<Cuboid<kDim>>(later[0]);
+    const auto& far = std::get<Cuboid<kDim>>(later[1]);
+    EXPECT_GT((near.axes - Matrix<kDim>::Identity()).norm(), 0.5);
+    EXPECT_LT((far.axes - near.axes).norm(), 1e-6);
+    EXPECT_LT((far.axes.transpose() * far.axes - Matrix<kDim>::Identity()).norm(), 1e-14);
 }
 
 // A ball that turns about itself is where it was, but its surface moves.
@@ -88,7 +111,10 @@ TYPED_TEST(ObstacleMotionsTest, TurnAnObstacleAboutItsCenterUnlessItIsToldOtherw
     Motion turn = test::still(kDim);
     turn.rotate = {{.plane = {0, 1}, .degrees_per_s = 90}};
     scene.obstacles[1].motion = {turn};
+    scene.obstacles[2].motion = {turn};
+    std::get<CavityObstacle>(scene.obstacles[2].shape).center.setZero();
     const ObstacleMotions<kDim> motions(scene);
+    EXPECT_TRUE(motions.is_moving(2, 0, 1));  // though its map has no shift
     const Vector<kDim> center = std::get<Ball<kDim>>(motions.at(0)[1]).center;
     EXPECT_LT((std::get<Ball<kDim>>(motions.at(1)[1]).center - center).norm(), 1e-15);
     const Vector<kDim> right = center + 0.5 * Vector<kDim>::Unit(0);

@@ -7,8 +7,11 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <limits>
 #include <random>
+#include <string>
+#include <utility>
 
 namespace pent::simulator {
 namespace {
@@ -30,10 +33,15 @@ Simulation<Dim> two_cubes() {
     return Simulation<Dim>(test::two_cubes<Dim>(0.03), {cube<Dim>(), cube<Dim>()});
 }
 
-// Against the boxes that the bodies are, by slabs.
+// Against the boxes that the bodies are, by slabs, on both sides of the origin.
 TYPED_TEST(Picking, FindsWhatARayComesToFirst) {
     constexpr int kDim = TypeParam::value;
-    const Simulation<kDim> simulation = two_cubes<kDim>();
+    Simulation<kDim> simulation = two_cubes<kDim>();
+    const Vector<kDim> shift = Vector<kDim>::LinSpaced(-0.8, 0.2);
+    for (int body = 0; body < 2; ++body) {
+        const Positions<kDim> moved = simulation.positions(body).colwise() + shift;
+        simulation.set_state(body, moved, simulation.velocities(body));
+    }
     std::mt19937 random(3);
     std::uniform_real_distribution<double> place(-1, 2);
     int hits = 0;
@@ -43,11 +51,12 @@ TYPED_TEST(Picking, FindsWhatARayComesToFirst) {
         const Vector<kDim> aim = Vector<kDim>::Constant(0.3)
                                  + 0.2 * Vector<kDim>::NullaryExpr([&] { return place(random); });
         ray.direction = aim - ray.origin;
+        ray.origin += shift;
         double expected = std::numeric_limits<double>::infinity();
         int expected_body = -1;
         for (int body = 0; body < 2; ++body) {
-            const Vector<kDim> low = simulation.mesh(body).positions.rowwise().minCoeff();
-            const Vector<kDim> high = simulation.mesh(body).positions.rowwise().maxCoeff();
+            const Vector<kDim> low = simulation.positions(body).rowwise().minCoeff();
+            const Vector<kDim> high = simulation.positions(body).rowwise().maxCoeff();
             const Vector<kDim> a = (low - ray.origin).cwiseQuotient(ray.direction);
             const Vector<kDim> b = (high - ray.origin).cwiseQuotient(ray.direction);
             const double begin = std::max(0.0, a.cwiseMin(b).maxCoeff());
@@ -152,12 +161,25 @@ TYPED_TEST(Picking, RefusesWhatIsNoRayAndNoHyperplane) {
         return pent::test::error_of([&] { static_cast<void>(pick(simulation, slice, ray)); });
     };
     pent::test::expect_contains(refused({some, none}, {some, 0}), {"direction", "not 0"});
+    pent::test::expect_contains(pent::test::error_of([&] {
+                                    static_cast<void>(pick(simulation, Ray<kDim>{some, none}));
+                                }),
+                                {"direction", "not 0"});
     pent::test::expect_contains(refused({some / 0, some}, {some, 0}), {"finite origin"});
     pent::test::expect_contains(refused({some, some}, {none, 0}), {"normal", "not 0"});
     pent::test::expect_contains(refused({some, some}, {some, 0}), {"along the normal"});
-    pent::test::expect_contains(
-        pent::test::error_of([&] { static_cast<void>(place_of(simulation, {.body = 2})); }),
-        {"no cell 0 of a body 2"});
+    pent::test::expect_contains(refused({some, Vector<kDim>::Unit(0)}, {some, INFINITY}),
+                                {"finite offset"});
+    pent::test::expect_contains(refused({some, some}, {some / 0, 0}), {"finite normal"});
+    const std::int64_t cells = simulation.mesh(1).cell_count();
+    for (const auto& [body, cell] :
+         {std::pair<int, std::int64_t>{2, 0}, {-1, 0}, {1, cells}, {1, -1}}) {
+        pent::test::expect_contains(
+            pent::test::error_of([&, body = body, cell = cell] {
+                static_cast<void>(place_of(simulation, {.body = body, .cell = cell}));
+            }),
+            {"no cell " + std::to_string(cell) + " of a body " + std::to_string(body)});
+    }
 }
 
 }  // namespace

@@ -185,6 +185,85 @@ TYPED_TEST(PressureLoadsTest, WithinAFixedRimFollowsTheSurfaceExactly) {
     const double value = value_of<kDim>(loads, x);
     begin<kDim>(loads, setting.bodies.rest());
     EXPECT_NEAR(value_of<kDim>(loads, x), value, 1e-13 * std::abs(value));
+    // Of a rim that is carried along it is none, nor of one that is let go.
+    scene.constraints[0].motion = {test::still(kDim)};
+    const Setting<kDim> moving(scene, 2);
+    EXPECT_FALSE(PressureLoads<kDim>(moving.workers, scene, moving.bodies, moving.held)
+                     .energies()
+                     .at(0)
+                     .is_stored);
+    scene.constraints[0].motion.clear();
+    scene.constraints[0].to = 1;
+    const Setting<kDim> held_once(scene, 2);
+    EXPECT_FALSE(PressureLoads<kDim>(held_once.workers, scene, held_once.bodies, held_once.held)
+                     .energies()
+                     .at(0)
+                     .is_stored);
+}
+
+// Each is as it is alone: what is stored of one, and of another that is open.
+TYPED_TEST(PressureLoadsTest, OfSeveralPartsAreTheSumOfTheseAndNamedByWhatIsStored) {
+    constexpr int kDim = TypeParam::value;
+    const Load closed = pressed_scene<kDim>(EverythingSelection{}).loads[0];
+    Load open = pressed_scene<kDim>(one_half<kDim>()).loads[0];
+    open.pressure = -3;
+    const auto made = [](const std::vector<Load>& loads) {
+        Scene scene = test::box_scene<kDim>();
+        scene.loads = loads;
+        return scene;
+    };
+    const Setting<kDim> both(made({open, closed}), 2);
+    const Setting<kDim> first(made({open}), 2);
+    const Setting<kDim> second(made({closed}), 2);
+    PressureLoads<kDim> sum(both.workers, both.scene, both.bodies, both.held);
+    PressureLoads<kDim> lagged(first.workers, first.scene, first.bodies, first.held);
+    PressureLoads<kDim> stored(second.workers, second.scene, second.bodies, second.held);
+    const Positions<kDim> x = shaken<kDim>(both.bodies.rest(), 0.05, 9);
+    const double of_lagged = value_of<kDim>(lagged, x);
+    const double of_stored = value_of<kDim>(stored, x);
+    EXPECT_EQ(value_of<kDim>(sum, x), of_stored + of_lagged);
+    const std::vector<TermEnergy> parts = sum.energies();
+    ASSERT_EQ(parts.size(), 2);
+    EXPECT_EQ(parts[0].name, "pressure");
+    EXPECT_EQ(parts[0].energy, of_stored);
+    EXPECT_EQ(parts[1].name, "open_pressure");
+    EXPECT_EQ(parts[1].energy, of_lagged);
+    const Positions<kDim> gradient = gradient_of<kDim>(lagged, x) + gradient_of<kDim>(stored, x);
+    EXPECT_LT((gradient_of<kDim>(sum, x) - gradient).norm(), 1e-14 * gradient.norm());
+    const auto pattern = make_pattern<kDim>(both.bodies.cells(), both.dofs);
+    const Eigen::MatrixXd hessian =
+        hessian_of<kDim>(first, pattern, lagged, x) + hessian_of<kDim>(second, pattern, stored, x);
+    EXPECT_LT((hessian_of<kDim>(both, pattern, sum, x) - hessian).norm(), 1e-14 * hessian.norm());
+}
+
+TYPED_TEST(PressureLoadsTest, FollowsItsKeyframesAndSaysThatTheBodyIsDriven) {
+    constexpr int kDim = TypeParam::value;
+    Scene scene = pressed_scene<kDim>(one_half<kDim>());
+    scene.bodies.insert(scene.bodies.begin(), scene.bodies[0]);
+    scene.bodies[0].name = "other";
+    const Setting<kDim> steady(scene, 2);
+    PressureLoads<kDim> whole(steady.workers, steady.scene, steady.bodies, steady.held);
+    const Positions<kDim> x = shaken<kDim>(steady.bodies.rest(), 0.05, 3);
+    const Positions<kDim> full = gradient_of<kDim>(whole, x);
+    const Eigen::Index half = steady.bodies.first_vertex[1];
+    EXPECT_TRUE(full.leftCols(half).isZero(0));
+    EXPECT_GT(full.rightCols(half).norm(), 0.1);
+    scene.loads[0].keyframes = {{1, 0.25}, {2, 0.5}};
+    const Setting<kDim> setting(scene, 2);
+    PressureLoads<kDim> loads(setting.workers, setting.scene, setting.bodies, setting.held);
+    EXPECT_TRUE(loads.set_time({0, 0.5}));  // before the first, as there
+    EXPECT_LT((gradient_of<kDim>(loads, x) - 0.25 * full).norm(), 1e-14 * full.norm());
+    const auto driven = [&] {
+        Couplings couplings;
+        loads.add_couplings(couplings);
+        return couplings.driven;
+    };
+    EXPECT_TRUE(driven().empty());
+    EXPECT_TRUE(loads.set_time({1, 2}));
+    EXPECT_LT((gradient_of<kDim>(loads, x) - 0.5 * full).norm(), 1e-14 * full.norm());
+    EXPECT_EQ(driven(), std::vector<std::size_t>{1});
+    EXPECT_FALSE(loads.set_time({2, 3}));
+    EXPECT_TRUE(driven().empty());
 }
 
 // A body under pressure from all sides moves as a whole for nothing, in its filtered Hessian, too:

@@ -68,6 +68,51 @@ TYPED_TEST(RayleighDampingTest, HasTheDerivativesOfItsEnergyWithElementsOfEveryK
     }
 }
 
+// Vertices that a step takes along damp the others as they do where they are solved for: what is
+// said of free vertices is the same, and so is what the value does from one place to another.
+TYPED_TEST(RayleighDampingTest, CountsTheWayOfHeldVertices) {
+    constexpr int kDim = TypeParam::value;
+    Scene scene = test::box_scene<kDim>();
+    const Setting<kDim> free(scene, 2);
+    scene.constraints = {
+        test::hold(HalfSpaceSelection{.normal = Eigen::VectorXd::Unit(kDim, 0), .offset = 1e-6},
+                   test::still(kDim))};
+    const Setting<kDim> held(scene, 2);
+    const Positions<kDim> start = shaken<kDim>(free.bodies.rest(), 0.05, 10);
+    const Positions<kDim> still = 0 * start;
+    Positions<kDim> x = shaken<kDim>(start, 0.05, 11);
+    Positions<kDim> other = shaken<kDim>(start, 0.05, 12);
+    Positions<kDim> way = x - start;
+    for (std::uint32_t vertex = 0; vertex < x.cols(); ++vertex) {
+        if (held.held.is_held(vertex)) {
+            other.col(vertex) = x.col(vertex);
+        } else {
+            way.col(vertex).setZero();
+        }
+    }
+    struct Said {
+        Positions<kDim> gradient;
+        double rise;
+    };
+    const auto say = [&](const Setting<kDim>& of, const Positions<kDim>& prescribed) -> Said {
+        Elasticity<kDim> elasticity(of.workers, of.isa, of.bodies, of.held, of.scene);
+        RayleighDamping<kDim> damping(of.workers, of.isa.blocks, elasticity,
+                                      std::make_shared<const DofMap>(of.dofs), of.bodies.sharing,
+                                      Filter::Clamp);
+        static_cast<void>(value_of<kDim>(elasticity, start));
+        EXPECT_TRUE(damping.begin_step({start, still, start, prescribed, 0.01, 100, false}));
+        return {gradient_of<kDim>(damping, x),
+                value_of<kDim>(damping, x) - value_of<kDim>(damping, other)};
+    };
+    const Said whole = say(free, still);
+    const Said part = say(held, way);
+    EXPECT_NEAR(part.rise, whole.rise, 1e-11 * std::abs(whole.rise));
+    for (const std::uint32_t vertex : held.dofs.vertices()) {
+        EXPECT_LT((part.gradient - whole.gradient).col(vertex).norm(),
+                  1e-12 * whole.gradient.norm());
+    }
+}
+
 // Of a cube at the start of a step.
 template <int Dim>
 struct Damped {

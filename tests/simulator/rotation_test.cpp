@@ -41,11 +41,13 @@ Body placed(double scale, const std::vector<Turn>& turns, const Vector<4>& shift
 
 TEST(Place, ScalesThenTurnsInTheOrderWrittenThenMoves) {
     SimplexMesh<4> mesh = pent::test::kuhn_box<4>({1, 1, 1, 1}, {1, 1, 1, 1});
+    mesh.fibers = Vector<4>::Unit(0).replicate(1, mesh.cell_count());  // as long as before
     // Corner (1,0,0,0): scaled to 2 x; x towards w: 2 w; w towards y: 2 y; moved.
     const Body body = placed(2, {{{0, 3}, 90}, {{3, 1}, 90}}, Vector<4>(10, 0, 0, 0));
     const SimplexMesh<4> result = place(mesh, body);
     EXPECT_LT((result.positions.col(1) - Vector<4>(10, 2, 0, 0)).norm(), 1e-14);
     EXPECT_NEAR(total_volume(result), 16, 1e-12);
+    EXPECT_LT((result.fibers.colwise() - Vector<4>::Unit(1)).norm(), 1e-14);
 }
 
 TEST(Place, LeavesAMeshWithoutPlacementAsItIs) {
@@ -154,6 +156,31 @@ TEST(PoseAt, GoesThroughKeyframesWithTheVelocitiesGiven) {
     const Pose<4> later = pose_at<4>(motion, 3.01);
     EXPECT_EQ(later.rotation, end.rotation);
     EXPECT_EQ(later.rate, Matrix<4>::Zero());
+}
+
+// Without any rate, each plane by itself, in the order in which they come.
+TEST(PoseAt, GoesThroughKeyframesThatOnlySayHowFarItIsTurned) {
+    Motion motion;
+    motion.translate = Eigen::Vector4d::Zero();
+    const Plane first = {3, 0};
+    const Plane second = {1, 2};
+    motion.keyframes.resize(2);
+    motion.keyframes[0].time = 1;
+    motion.keyframes[0].rotate = {{first, 40}};
+    motion.keyframes[1].time = 3;
+    motion.keyframes[1].rotate = {{first, -20}, {second, 70}};
+    for (MotionKeyframe& keyframe : motion.keyframes) {
+        keyframe.translate = Eigen::Vector4d::Zero();
+    }
+    constexpr double kDegree = std::numbers::pi / 180;
+    const auto turned = [&](double a, double b) -> Matrix<4> {
+        return plane_rotation<4>(second, b * kDegree) * plane_rotation<4>(first, a * kDegree);
+    };
+    EXPECT_LT((pose_at<4>(motion, 1).rotation - turned(40, 0)).norm(), 1e-14);
+    EXPECT_LT((pose_at<4>(motion, 3).rotation - turned(-20, 70)).norm(), 1e-14);
+    EXPECT_LT((pose_at<4>(motion, 2).rotation - turned(10, 35)).norm(), 1e-14);  // half of the way
+    motion.keyframes[1].rotate[0].degrees = -100;
+    EXPECT_NEAR(largest_turn_rate(motion), 70, 1e-12);  // back by 140 degrees in 2 s
 }
 
 TEST(PoseAt, HasRatesThroughKeyframesEqualToTheDifferenceInTime) {

@@ -49,6 +49,24 @@ TYPED_TEST(SceneEnergyTest, TheSumHasTheTermsOfTheSceneAndNoOthers) {
     EXPECT_EQ(names(scene), (std::vector<std::string>{"gravity", "elastic", "obstacle"}));
 }
 
+// There is friction where anything has some, whatever else there is.
+TYPED_TEST(SceneEnergyTest, HasFrictionIfAnyBodyObstacleOrContactHas) {
+    constexpr int kDim = TypeParam::value;
+    for (int which = -1; which < 5; ++which) {
+        Scene scene = two_cubes<kDim>(0.03);
+        scene.obstacles.assign(2, barrier_scene<kDim>().obstacles.front());
+        scene.contact->friction = which == 0 ? 0.3 : 0;
+        for (std::size_t i = 0; i < 2; ++i) {
+            scene.bodies[i].friction = which == 1 + static_cast<int>(i) ? 0.3 : 0;
+            scene.obstacles[i].friction = which == 3 + static_cast<int>(i) ? 0.3 : 0;
+        }
+        const Setting<kDim> setting(scene, 1);
+        const SceneEnergy<kDim> energy(setting.workers, setting.isa, setting.bodies, setting.held,
+                                       setting.scene);
+        EXPECT_EQ(energy.friction != nullptr, which >= 0) << which;
+    }
+}
+
 TYPED_TEST(SceneEnergyTest, TheSumIsThatOfItsTerms) {
     constexpr int kDim = TypeParam::value;
     Scene scene = barrier_scene<kDim>();

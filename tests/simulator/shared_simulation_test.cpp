@@ -267,10 +267,20 @@ TEST(SharedSimulation, HasActivationsAlongFibersByDistances) {
     }
 }
 
-// Vertices of one cube tied to the cells of another, wherever these are.
+// Vertices of one cube tied to the cells of another, wherever these are; the second one has a
+// muscle where its cells are labeled for it, which ranks have in part behind those of the first.
 TEST(SharedSimulation, HasAttachmentsOfOneBodyToAnother) {
-    Case<4> made{test::two_cubes<4>(0.1), {test::cube<4>(), test::cube<4>()}};
+    SimplexMesh<4> mesh = test::cube<4>();
+    for (Eigen::Index cell = 0; cell < mesh.cell_count(); ++cell) {
+        mesh.regions.push_back(static_cast<std::uint16_t>(cell / 24 % 3));
+    }
+    Case<4> made{test::two_cubes<4>(0.1), {mesh, mesh}};
     Scene& scene = made.scene;
+    scene.activations = {{.body = scene.bodies[1].name,
+                          .select = {RegionSelection{.region = 1}},
+                          .stretch = 0.9,
+                          .signal = Signal::Sine,
+                          .frequency = 3}};
     scene.contact.reset();
     scene.gravity[1] = -9.8;
     scene.solver.precision = Precision::Double;

@@ -76,10 +76,11 @@ TEST(StepProblem, IsThatOfTheIntegrator) {
     EXPECT_EQ(target(Integrator::Bdf2, nullptr), target(Integrator::NewtonEuler, nullptr));
 }
 
-TEST(StaticProblem, HasNoInertia) {
+TEST(StaticProblem, HasNoInertiaAndTheVelocityOfTheWay) {
     const StepProblem<3> problem = static_problem<3>(at(0.3, 5), 0.1);
     EXPECT_EQ(problem.inertia, 0);
     EXPECT_GT(problem.scale, 0);
+    EXPECT_NEAR(problem.rate * (0.5 - problem.origin(0)), 2, 1e-14);  // 0.2 m in 0.1 s
 }
 
 }  // namespace

@@ -2,10 +2,13 @@
 
 #include <pent/formatted.h>
 #include <pent/simulator/placed_mesh.h>
+#include <pent/simulator/seen_pairs.h>
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <numbers>
+#include <optional>
 
 namespace pent::runs {
 
@@ -136,12 +139,14 @@ struct Pair {
 // Of bodies that are not both held and, where there is contact, see each other.
 std::vector<Pair> pairs_of(const Trial& trial) {
     const Scene& scene = trial.scene;
+    const std::optional<simulator::SeenPairs> seen =
+        scene.contact ? std::optional(simulator::SeenPairs(scene)) : std::nullopt;
     std::vector<Pair> pairs;
-    for (std::size_t a = 0; a < trial.bodies.size(); ++a) {
-        for (std::size_t b = a + 1; b < trial.bodies.size(); ++b) {
+    for (std::uint32_t a = 0; a < trial.bodies.size(); ++a) {
+        for (std::uint32_t b = a + 1; b < trial.bodies.size(); ++b) {
             const TrialBody& one = trial.bodies[a];
             const TrialBody& other = trial.bodies[b];
-            const bool are_seen = !scene.contact || simulator::may_touch(scene, a, b);
+            const bool are_seen = !seen || seen->may_touch(a, b);
             if (are_seen && (!one.is_kinematic() || !other.is_kinematic())) {
                 pairs.push_back(
                     {scene.bodies[a], scene.bodies[b], one.box.exteriorDistance(other.box)});

@@ -4,7 +4,9 @@
 #include <pent/contact/obstacles.h>
 #include <pent/formatted.h>
 #include <pent/simulator/placed_mesh.h>
+#include <pent/simulator/seen_pairs.h>
 #include <pent/simulator/step_failures.h>
+#include <pent/simulator/thickness.h>
 
 #include <Eigen/Geometry>
 
@@ -14,6 +16,7 @@
 #include <iterator>
 #include <limits>
 #include <map>
+#include <optional>
 #include <utility>
 
 namespace pent::runs {
@@ -23,72 +26,78 @@ namespace {
 constexpr double kFar = std::numeric_limits<double>::infinity();
 
 template <int Dim>
-using Vector = Eigen::Matrix<double, Dim, 1>;
-
-template <int Dim>
-Vector<Dim> sides(const Simulation<Dim>& simulation, int body) {
-    const Positions<Dim>& positions = simulation.mesh(body).positions;
-    return positions.rowwise().maxCoeff() - positions.rowwise().minCoeff();
-}
-
-// Whether there is contact of a body with another one.
-bool sees(const Scene& scene, std::size_t body, std::size_t other) {
-    return other != body && simulator::may_touch(scene, body, other);
-}
-
-// How far the body is from an obstacle, or from the nearest other body that it sees by their boxes,
-// m; infinite from nothing.
-template <int Dim>
-double gap(const Scene& scene,
-           const Simulation<Dim>& simulation,
-           int body,
-           const Obstacle* obstacle) {
-    const Positions<Dim>& positions = simulation.mesh(body).positions;
-    double least = kFar;
-    if (obstacle != nullptr) {
-        const pent::ObstacleShape<Dim> shape = fixed_size<Dim>(obstacle->shape);
-        for (Eigen::Index vertex = 0; vertex < positions.cols(); ++vertex) {
-            least =
-                std::min(least, contact::signed_distance<Dim>(shape, positions.col(vertex)).value);
-        }
-        return std::max(least, 0.0);
-    }
-    using Box = Eigen::AlignedBox<double, Dim>;
-    const auto box = [&](int i) {
-        const Positions<Dim>& of = simulation.mesh(i).positions;
-        return Box(of.rowwise().minCoeff(), of.rowwise().maxCoeff());
-    };
-    for (int other = 0; other < static_cast<int>(scene.bodies.size()); ++other) {
-        if (sees(scene, static_cast<std::size_t>(body), static_cast<std::size_t>(other))) {
-            least = std::min(least, box(body).exteriorDistance(box(other)));
-        }
-    }
-    return least;
+double thickness_of(const Simulation<Dim>& simulation, int body) {
+    return simulator::thickness<Dim>(simulation.mesh(body).positions);
 }
 
 double speed_of(const Eigen::VectorXd& velocity) {
     return velocity.size() > 0 ? velocity.norm() : 0;
 }
 
-// Largest speed of a body against what it may meet: another body, or what does not move.
-double start_speed(const Scene& scene, std::size_t body, bool meets_obstacle) {
-    const Eigen::VectorXd& own = scene.bodies[body].velocity;
-    double most = speed_of(own);
-    for (std::size_t other = 0; !meets_obstacle && other < scene.bodies.size(); ++other) {
-        if (sees(scene, body, other)) {
-            most = std::max(most, speed_of(own) + speed_of(scene.bodies[other].velocity));
+// How far a body is from an obstacle, m.
+template <int Dim>
+double gap(const Simulation<Dim>& simulation, int body, const Obstacle& obstacle) {
+    const Positions<Dim>& positions = simulation.mesh(body).positions;
+    const pent::ObstacleShape<Dim> shape = fixed_size<Dim>(obstacle.shape);
+    double least = kFar;
+    for (Eigen::Index vertex = 0; vertex < positions.cols(); ++vertex) {
+        least = std::min(least, contact::signed_distance<Dim>(shape, positions.col(vertex)).value);
+    }
+    return std::max(least, 0.0);
+}
+
+// What bodies have before them in a scene with [contact]: the others that they see.
+template <int Dim>
+class Others {
+public:
+    Others(const Scene& scene, const Simulation<Dim>& simulation) : scene_(scene), seen_(scene) {
+        for (int body = 0; body < simulation.body_count(); ++body) {
+            const Positions<Dim>& positions = simulation.mesh(body).positions;
+            boxes_.emplace_back(positions.rowwise().minCoeff(), positions.rowwise().maxCoeff());
         }
     }
-    return most;
-}
+
+    // How far a body is from the nearest of them by their boxes, m; infinite from none.
+    [[nodiscard]] double gap(std::size_t body) const {
+        double least = kFar;
+        for_each_of(body, [&](std::size_t other) {
+            least = std::min(least, boxes_[body].exteriorDistance(boxes_[other]));
+        });
+        return least;
+    }
+
+    // Largest speed of a body against one of them, m/s.
+    [[nodiscard]] double start_speed(std::size_t body) const {
+        const double own = speed_of(scene_.bodies[body].velocity);
+        double most = own;
+        for_each_of(body, [&](std::size_t other) {
+            most = std::max(most, own + speed_of(scene_.bodies[other].velocity));
+        });
+        return most;
+    }
+
+private:
+    template <typename Visit>
+    void for_each_of(std::size_t body, const Visit& visit) const {
+        for (std::size_t other = 0; other < boxes_.size(); ++other) {
+            if (other != body && seen_.may_touch(body, other)) {
+                visit(other);
+            }
+        }
+    }
+
+    const Scene& scene_;
+    simulator::SeenPairs seen_;
+    std::vector<Eigen::AlignedBox<double, Dim>> boxes_;
+};
 
 }  // namespace
 
 template <int Dim>
-double thinnest_side(const Simulation<Dim>& simulation) {
+double least_thickness(const Simulation<Dim>& simulation) {
     double least = kFar;
     for (int body = 0; body < simulation.body_count(); ++body) {
-        least = std::min(least, sides(simulation, body).minCoeff());
+        least = std::min(least, thickness_of(simulation, body));
     }
     return least;
 }
@@ -103,7 +112,7 @@ std::vector<std::string> doubts_of_units(const Scene& scene, const Simulation<Di
     for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
         const Body& body = scene.bodies[i];
         const int at = static_cast<int>(i);
-        const double thin = sides(simulation, at).minCoeff();
+        const double thin = thickness_of(simulation, at);
         const auto doubt_distance = [&](double distance, const std::string& block) {
             if (distance > kMaxPerBody * thin) {
                 lines.push_back(formatted(
@@ -186,11 +195,9 @@ std::vector<std::string> soft_contacts(const Scene& scene,
     const bool has_barrier = scene.contact && scene.contact->model == ContactModel::Barrier;
     const double g = scene.gravity.norm();
     const double duration = scene.frames / scene.frames_per_second;
-    const auto judge = [&](std::size_t i, const Obstacle* obstacle, double stiffness,
+    const auto judge = [&](std::size_t i, double height, double speed, double stiffness,
                            const std::string& block) {
         const int body = static_cast<int>(i);
-        const double height = gap(scene, simulation, body, obstacle);
-        const double speed = start_speed(scene, i, obstacle != nullptr);
         const double fall = std::min(height, 0.5 * g * duration * duration);
         if (!(height <= speed * duration + 0.5 * g * duration * duration)) {
             return;  // they do not meet
@@ -199,7 +206,7 @@ std::vector<std::string> soft_contacts(const Scene& scene,
         // On one of the 2 Dim sides of the body, as if it were a box.
         const double count = std::max(1.0, static_cast<double>(boundary_vertices[i]) / (2 * Dim));
         const double arrival = std::sqrt(speed * speed + 2 * g * fall);
-        const double deepest = kDeep * sides(simulation, body).minCoeff();
+        const double deepest = kDeep * thickness_of(simulation, body);
         const double by_weight = mass * g / (2 * count * deepest);
         const double by_impact = mass * arrival * arrival / (2 * count * deepest * deepest);
         const double needed = std::max(by_weight, by_impact);
@@ -210,6 +217,8 @@ std::vector<std::string> soft_contacts(const Scene& scene,
                 scene.bodies[i].name.c_str(), mass, arrival, block.c_str(), stiffness, needed));
         }
     };
+    const std::optional<Others<Dim>> others =
+        scene.contact ? std::optional<Others<Dim>>(std::in_place, scene, simulation) : std::nullopt;
     for (std::size_t i = 0; !has_barrier && i < scene.bodies.size(); ++i) {
         const bool is_held =
             std::any_of(scene.constraints.begin(), scene.constraints.end(),
@@ -218,11 +227,13 @@ std::vector<std::string> soft_contacts(const Scene& scene,
             continue;  // what holds it bears its weight
         }
         for (std::size_t o = 0; o < scene.obstacles.size(); ++o) {
-            judge(i, &scene.obstacles[o], scene.obstacles[o].stiffness,
+            const Obstacle& obstacle = scene.obstacles[o];
+            judge(i, gap(simulation, static_cast<int>(i), obstacle),
+                  speed_of(scene.bodies[i].velocity), obstacle.stiffness,
                   "[[obstacle]] " + std::to_string(o + 1));
         }
-        if (scene.contact && scene.bodies.size() > 1) {
-            judge(i, nullptr, scene.contact->stiffness, "[contact]");
+        if (others && scene.bodies.size() > 1) {
+            judge(i, others->gap(i), others->start_speed(i), scene.contact->stiffness, "[contact]");
         }
     }
     return lines;
@@ -290,7 +301,7 @@ std::string remedy(const Scene& scene,
 }
 
 #define PENT_INSTANTIATE(Dim)                                                                     \
-    template double thinnest_side<Dim>(const Simulation<Dim>&);                                   \
+    template double least_thickness<Dim>(const Simulation<Dim>&);                                 \
     template std::vector<std::string> doubts_of_units<Dim>(const Scene&, const Simulation<Dim>&); \
     template std::vector<std::string> overlaps_at_start<Dim>(const Scene&,                        \
                                                              const Simulation<Dim>&);             \

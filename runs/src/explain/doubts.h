@@ -16,9 +16,9 @@ namespace pent::runs {
 /// Penetration beyond this part of the thinnest extent of a body is said to be deep.
 inline constexpr double kDeep = 0.1;
 
-/// Shortest side of the boxes around all bodies as placed, m.
+/// Of the thinnest body, m.
 template <int Dim>
-[[nodiscard]] double thinnest_side(const Simulation<Dim>& simulation);
+[[nodiscard]] double least_thickness(const Simulation<Dim>& simulation);
 
 /// Units that do not fit one another: distances of contact or obstacles above a tenth of a body,
 /// waves that cross a body in 1e-4 of a step or in 1e4 steps, bodies of micrograms.

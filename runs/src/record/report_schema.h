@@ -165,7 +165,7 @@ void fields(Part& report, const Visit& visit) {
     visit(key("seconds", "s", "spent in all parts"), report.seconds);
     visit(key("threads", "", "of the last part"), last.threads);
     visit(key("isa", "", "of the last part: its instruction set"), last.isa);
-    visit(key("thinnest", "m", "shortest side of the boxes around the bodies at rest")
+    visit(key("thinnest", "m", "least extent of a body at rest, along the axes of space or its own")
               .may_be_missing(),
           report.thinnest);
     visit(key("size", "", "how big the simulation is"), report.size);

@@ -79,11 +79,62 @@ private:
     }
 };
 
+// A visitor of the schema that writes a report as Json::dump(1) does, long lists entry by entry:
+// as JSON all of them at once take several times the memory of their text.
+struct TextWriter {
+    using Field = simulator::Field;
+
+    std::string& text;
+
+    template <typename Value>
+    void operator()(const Field& field, const Value& value) const {
+        Json entry = Json::object();
+        RecordWriter{entry}(field, value);
+        if (!entry.empty()) {
+            begin(field);
+            add(entry.front(), 1);
+        }
+    }
+    void operator()(const Field& field, const std::vector<FrameReport>& frames) const {
+        add_list(field, frames);
+    }
+    void operator()(const Field& field, const std::vector<simulator::StepReport>& steps) const {
+        add_list(field, steps);
+    }
+
+private:
+    template <typename Part>
+    void add_list(const Field& field, const std::vector<Part>& parts) const {
+        begin(field);
+        const char* before = "[\n  ";
+        for (const Part& part : parts) {
+            text += before;
+            add(write_record(part), 2);
+            before = ",\n  ";
+        }
+        text += parts.empty() ? "[]" : "\n ]";
+    }
+    void begin(const Field& field) const {
+        text += text.empty() ? "{\n \"" : ",\n \"";
+        text.append(field.key).append("\": ");
+    }
+    // Within a text the end of a line is written as \n.
+    void add(const Json& json, std::size_t depth) const {
+        // Messages name files, whose names may have bytes that are not UTF-8.
+        for (const char c : json.dump(1, ' ', false, Json::error_handler_t::replace)) {
+            text += c;
+            text.append(c == '\n' ? depth : 0, ' ');
+        }
+    }
+};
+
 }  // namespace
 
 std::string report_text(const RunReport& report) {
-    // Messages name files, whose names may have bytes that are not UTF-8.
-    return write_record(report).dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
+    std::string text;
+    fields(report, TextWriter{text});
+    text += "\n}\n";
+    return text;
 }
 
 RunReport read_report(const std::filesystem::path& path) {

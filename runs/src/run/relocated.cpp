@@ -1,4 +1,6 @@
-#include "run/relocated.h"
+#include "pent/runs/relocated.h"
+
+#include "simulator_names.h"
 
 #include <pent/runs/recipe.h>
 

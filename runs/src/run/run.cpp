@@ -6,7 +6,6 @@
 #include "run/contact_table.h"
 #include "run/earlier_run.h"
 #include "run/frames.h"
-#include "run/relocated.h"
 #include "run/resume.h"
 #include "run/resumption.h"
 #include "run/run_meshes.h"
@@ -19,6 +18,7 @@
 #include <pent/output_folder.h>
 #include <pent/pent_file.h>
 #include <pent/run_files.h>
+#include <pent/runs/relocated.h>
 #include <pent/runs/run.h>
 #include <pent/runs/scene_file.h>
 #include <pent/simulator/crossing_error.h>
@@ -55,7 +55,7 @@ public:
           meshes_(scene, ranks_),
           simulation_(meshes_.simulate(simulation_options(options))) {
         report_.size = simulation_.size();
-        report_.thinnest = thinnest_side(simulation_);
+        report_.thinnest = least_thickness(simulation_);
         report_.warnings = meshes_.warnings();
         for (const auto& lines : {simulation_.warnings(), doubts_of_units(scene, simulation_),
                                   overlaps_at_start(scene, simulation_)}) {

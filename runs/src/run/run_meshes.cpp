@@ -31,25 +31,6 @@ void require_files(const Scene& scene) {
     }
 }
 
-// Vectors turn with the body, as fibers do. One by one: a sum must not hang on how many of them a
-// rank has.
-template <int Dim>
-void turn(std::vector<VertexField>& fields, const simulator::Placement& placement) {
-    if (placement.rotate.empty()) {
-        return;
-    }
-    SimplexMesh<Dim> axes;
-    axes.fibers = Eigen::Matrix<double, Dim, Dim>::Identity();
-    put_in_place(axes, placement);
-    const Eigen::Matrix<double, Dim, Dim> rotation = axes.fibers;
-    for (VertexField& field : fields) {
-        for (Eigen::Index i = 0; field.values.rows() == Dim && i < field.values.cols(); ++i) {
-            const Eigen::Matrix<double, Dim, 1> before = field.values.col(i);
-            field.values.col(i) = rotation * before;
-        }
-    }
-}
-
 }  // namespace
 
 template <int Dim>

@@ -3,6 +3,7 @@
 #include <pent/error.h>
 #include <pent/formatted.h>
 #include <pent/number_bounds.h>
+#include <pent/simulator/placed_mesh.h>
 
 #include <utility>
 
@@ -94,10 +95,29 @@ SceneMeshes<Dim> read_meshes(const Scene& scene) {
     return result;
 }
 
+template <int Dim>
+void turn(std::vector<VertexField>& fields, const simulator::Placement& placement) {
+    if (placement.rotate.empty()) {
+        return;
+    }
+    SimplexMesh<Dim> axes;
+    axes.fibers = Eigen::Matrix<double, Dim, Dim>::Identity();
+    put_in_place(axes, placement);
+    const Eigen::Matrix<double, Dim, Dim> rotation = axes.fibers;
+    // One by one: a sum must not hang on how many of them a rank has.
+    for (VertexField& field : fields) {
+        for (Eigen::Index i = 0; field.values.rows() == Dim && i < field.values.cols(); ++i) {
+            const Eigen::Matrix<double, Dim, 1> before = field.values.col(i);
+            field.values.col(i) = rotation * before;
+        }
+    }
+}
+
 #define PENT_INSTANTIATE(Dim)                                                          \
     template SceneMeshes<Dim> read_meshes<Dim>(const Scene&);                          \
     template void judge_mesh<Dim>(const Scene&, const Body&, const SimplexMesh<Dim>&,  \
                                   std::vector<std::string>&);                          \
+    template void turn<Dim>(std::vector<VertexField>&, const simulator::Placement&);   \
     template FileInfo info_of_mesh<Dim>(const Body&);                                  \
     template void check_size<Dim>(const SimplexMesh<Dim>&, const Body&);               \
     template void judge_facets<Dim>(const Scene&, const Body&, const FacetMatch<Dim>&, \

@@ -19,6 +19,10 @@ namespace pent::runs {
 template <int Dim>
 [[nodiscard]] FileInfo info_of_mesh(const Body& body);
 
+/// Turns vectors among quantities of a mesh with the body that is placed, as fibers do.
+template <int Dim>
+void turn(std::vector<VertexField>& fields, const simulator::Placement& placement);
+
 /// Does work whose Errors do not know where in the scene file the body is: then they say so.
 void with_place_of(const Body& body, const std::function<void()>& work);
 

@@ -126,7 +126,7 @@ CurvePoint angle_in(const MotionKeyframe& keyframe, const Plane& plane) {
     return point;
 }
 
-// Those that it turns in, each once, in the order in which it names them.
+// Those that keyframes turn in, each once, in the order in which they name them.
 std::vector<Plane> planes_of(const Motion& motion) {
     std::vector<Plane> planes;
     const auto add = [&](const auto& turns) {
@@ -136,7 +136,6 @@ std::vector<Plane> planes_of(const Motion& motion) {
             }
         }
     };
-    add(motion.rotate);
     for (const MotionKeyframe& keyframe : motion.keyframes) {
         add(keyframe.rotate);
         add(keyframe.spin);

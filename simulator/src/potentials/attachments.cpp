@@ -20,6 +20,11 @@ namespace {
 // times as strong on its corners.
 constexpr double kMaxCoordinate = 100;
 
+bool is_any_damped(const std::vector<Attachment>& attachments) {
+    return std::any_of(attachments.begin(), attachments.end(),
+                       [](const Attachment& attachment) { return attachment.damping > 0; });
+}
+
 }  // namespace
 
 template <int Dim>
@@ -150,7 +155,8 @@ bool Attachments<Dim>::is_there(const Attachment& attachment, double begin) cons
 
 template <int Dim>
 bool Attachments<Dim>::set_time(const TimeSpan& step) {
-    bool has_changed = false;
+    bool has_changed = rate_ > 0 && is_any_damped(list_);
+    rate_ = 0;
     // Of the step that this is a part of, where it was cut: they come and go between steps.
     const double whole = dt_ * whole_steps(step.begin, dt_);
     for (Bundle& bundle : bundles_) {
@@ -181,14 +187,10 @@ bool Attachments<Dim>::set_time(const TimeSpan& step) {
 template <int Dim>
 bool Attachments<Dim>::begin_step(const StepStart<Dim>& start) {
     rate_ = start.rate;
-    bool has_damping = false;
-    for (const Bundle& bundle : bundles_) {
-        for (std::size_t s = bundle.begin; s < bundle.end; ++s) {
-            springs_[s].begin_step(rate_, start.origin);
-        }
-        has_damping = has_damping || bundle.attachment->damping > 0;
+    for (Tie& spring : springs_) {
+        spring.begin_step(rate_, start.origin);
     }
-    return has_damping;
+    return is_any_damped(list_);
 }
 
 template <int Dim>

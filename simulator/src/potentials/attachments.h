@@ -86,7 +86,7 @@ private:
     std::vector<Bundle> bundles_;
     std::vector<Tie> springs_;
     std::vector<std::uint8_t> broken_;
-    double rate_ = 0;  // 1/s; 0 before the first step
+    double rate_ = 0;  // 1/s; 0 between steps
     double energy_ = 0;
     double damping_energy_ = 0;
 };

@@ -18,6 +18,9 @@ namespace {
 constexpr double kDeep = 0.1;
 constexpr double kTight = 0.01;
 
+// Gaps above this part of the largest coordinate are no touch; below they may be.
+constexpr double kTouching = 1e-9;
+
 // The stiffness never is more than this times that of the scene.
 constexpr double kMaxStiffness = 1e8;
 
@@ -429,6 +432,45 @@ std::vector<contact::Crossing> ContactPotential<Dim>::find_crossings(
     return workers_->run([&] {
         return is_barrier_ ? finder_->find_crossings(positions) : std::vector<contact::Crossing>();
     });
+}
+
+template <int Dim>
+std::vector<contact::Crossing> ContactPotential<Dim>::find_crossings(
+    const Scene& scene,
+    const Bodies<Dim>& bodies,
+    const HeldVertices<Dim>& held,
+    const Positions<Dim>& x) const {
+    if (!is_barrier_
+        || (held.now() == finder_->scene().is_fixed
+            && held.always() == finder_->scene().is_always_fixed)) {
+        return find_crossings(x);
+    }
+    return workers_->run([&] {
+        contact::ContactFinder<Dim> finder(
+            contact_scene<Dim>(scene, bodies, held, do_bodies_meet_));
+        finder.move_obstacles(obstacles_);
+        return finder.find_crossings(x);
+    });
+}
+
+// To look at everything takes time: only where contacts say that something is that near, or where
+// they are not asked, of what is held for a while and obstacles.
+template <int Dim>
+std::string ContactPotential<Dim>::touching(const Positions<Dim>& from,
+                                            const Positions<Dim>& to) const {
+    if (!is_barrier_) {
+        return "";
+    }
+    const contact::ContactScene<Dim>& scene = finder_->scene();
+    bool may_touch = gap() < kTouching * to.cwiseAbs().maxCoeff();
+    for (std::size_t v = 0; has_obstacles_ && !may_touch && v < scene.is_fixed.size(); ++v) {
+        const auto column = static_cast<Eigen::Index>(v);
+        may_touch = scene.is_fixed[v] && !scene.is_always_fixed[v]
+                    && (has_moving_obstacles() || from.col(column) != to.col(column));
+    }
+    const std::vector<contact::Crossing> crossings =
+        may_touch ? find_crossings(to) : std::vector<contact::Crossing>();
+    return crossings.empty() ? "" : describe(crossings.front());
 }
 
 template <int Dim>

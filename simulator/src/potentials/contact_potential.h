@@ -94,6 +94,17 @@ public:
     /// What crosses where a barrier is to keep things apart; empty without one.
     [[nodiscard]] std::vector<contact::Crossing> find_crossings(
         const Positions<Dim>& positions) const;
+    /// The same if these vertices were held, and no others.
+    [[nodiscard]] std::vector<contact::Crossing> find_crossings(const Scene& scene,
+                                                                const Bodies<Dim>& bodies,
+                                                                const HeldVertices<Dim>& held,
+                                                                const Positions<Dim>& x) const;
+
+    /// What a step leads to, where that is no state to begin from; empty if it is. Newton's method
+    /// keeps gaps above 0, but what is held arrives where it is told to, however near that is.
+    ///
+    /// @param to  Where contacts were last evaluated.
+    [[nodiscard]] std::string touching(const Positions<Dim>& from, const Positions<Dim>& to) const;
 
     /// One line about a crossing or what is in the way of a step.
     [[nodiscard]] std::string describe(const contact::Crossing& crossing) const;

@@ -4,10 +4,12 @@
 
 #include <pent/contact/boundary_surface.h>
 #include <pent/dimensions.h>
+#include <pent/simulator/seen_pairs.h>
 
 #include <cstdint>
 #include <span>
 #include <utility>
+#include <vector>
 
 namespace pent::simulator {
 
@@ -28,12 +30,26 @@ std::span<const std::uint32_t> whole_cells(const Bodies<Dim>& bodies, std::size_
     return {cells.col(begin).data(), static_cast<std::size_t>(size) * (Dim + 1)};
 }
 
+std::vector<std::pair<std::uint32_t, std::uint32_t>> ignored_pairs(const SeenPairs& seen,
+                                                                   std::size_t bodies) {
+    std::vector<std::pair<std::uint32_t, std::uint32_t>> ignored;
+    for (std::uint32_t a = 0; a < bodies; ++a) {
+        for (std::uint32_t b = a; b < bodies; ++b) {
+            if (!seen.may_touch(a, b)) {
+                ignored.emplace_back(a, b);
+            }
+        }
+    }
+    return ignored;
+}
+
 }  // namespace
 
 bool may_any_touch(const Scene& scene, std::size_t bodies) {
+    const SeenPairs seen(scene);
     for (std::uint32_t a = 0; a < bodies; ++a) {
         for (std::uint32_t b = a; b < bodies; ++b) {
-            if (may_touch(scene, a, b)) {
+            if (seen.may_touch(a, b)) {
                 return true;
             }
         }
@@ -68,12 +84,8 @@ contact::ContactScene<Dim> contact_scene(const Scene& scene,
         result.obstacles.push_back(
             {fixed_size<Dim>(obstacle.shape), obstacle.distance, obstacle.stiffness});
     }
-    for (std::uint32_t a = 0; do_bodies_meet && a < bodies.count(); ++a) {
-        for (std::uint32_t b = a; b < bodies.count(); ++b) {
-            if (!may_touch(scene, a, b)) {
-                result.ignored.emplace_back(a, b);
-            }
-        }
+    if (do_bodies_meet) {
+        result.ignored = ignored_pairs(SeenPairs(scene), bodies.count());
     }
     result.is_fixed = held.now();
     result.is_always_fixed = held.always();

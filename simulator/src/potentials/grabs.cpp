@@ -55,8 +55,7 @@ void Grabs<Dim>::set(const std::vector<Holding>& holdings, double time) {
 }
 
 template <int Dim>
-void Grabs<Dim>::arrive(double time) {
-    start_ = time;
+void Grabs<Dim>::arrive() {
     for (Holding& holding : holdings_) {
         holding.from = holding.grab.anchor;
     }

@@ -29,8 +29,8 @@ public:
     void set(const std::vector<Holding>& holdings, double time);
     [[nodiscard]] const std::vector<Holding>& holdings() const { return holdings_; }
 
-    /// A step has ended at this time: anchors are where they were to be.
-    void arrive(double time);
+    /// A step has ended: anchors are where they were to be.
+    void arrive();
 
     [[nodiscard]] double evaluate(const Positions<Dim>& x, Positions<Dim>& gradient) override;
     void add_hessian(const Positions<Dim>& x,

@@ -296,6 +296,10 @@ typename Simulation<Dim>::Stepper::Attempts Simulation<Dim>::Stepper::attempt(do
     if (std::string reason = tunneling(); !reason.empty()) {
         return now.refuse(std::move(reason), Outcome::Refused);
     }
+    if (const std::string pair = energy_.contact->touching(current_.positions, next_.positions);
+        !pair.empty()) {
+        return now.refuse("the step would end where " + pair, Outcome::Refused);
+    }
     // Newton's method has forces at the end of the step: what was run into there has to give way.
     if (method != Method::Linear && wake_for(problem->prescribed)) {
         now.add(attempt(time, h, is_damped));

@@ -30,6 +30,11 @@ void Simulation<Dim>::Stepper::set_held(const std::map<std::uint32_t, Vector>& h
     const std::vector<std::uint32_t>& before = held_.of_host().vertices;
     std::set_symmetric_difference(before.begin(), before.end(), vertices.begin(), vertices.end(),
                                   std::back_inserter(changed));
+    if (!std::includes(vertices.begin(), vertices.end(), before.begin(), before.end())) {
+        HeldVertices<Dim> after = held_;  // held vertices may touch one another, free ones may not
+        static_cast<void>(after.hold_for_host(vertices, targets));
+        refuse_crossings(current_.positions, after);
+    }
     if (!held_.hold_for_host(std::move(vertices), targets)) {
         return;
     }

@@ -7,6 +7,7 @@
 
 #include <pent/dimensions.h>
 #include <pent/error.h>
+#include <pent/simulator/thickness.h>
 #include <pent/stopwatch.h>
 
 #include <algorithm>
@@ -18,14 +19,17 @@ namespace pent::simulator {
 
 namespace {
 
-// The least of what a function gives for the sides of the boxes around bodies at rest, m.
+template <int Dim>
+double diagonal(const Positions<Dim>& positions) {
+    return (positions.rowwise().maxCoeff() - positions.rowwise().minCoeff()).norm();
+}
+
+// The least of what a function gives for the vertices of bodies at rest, m.
 template <int Dim, typename Length>
 double least(const Bodies<Dim>& bodies, const Length& length) {
     double shortest = std::numeric_limits<double>::infinity();
     for (const SimplexMesh<Dim>& mesh : bodies.meshes) {
-        const Eigen::Matrix<double, Dim, 1> sides =
-            mesh.positions.rowwise().maxCoeff() - mesh.positions.rowwise().minCoeff();
-        shortest = std::min(shortest, length(sides));
+        shortest = std::min(shortest, length(mesh.positions));
     }
     return shortest;
 }
@@ -53,9 +57,9 @@ Simulation<Dim>::Stepper::Stepper(const Scene& scene,
       potential_(workers_, *kernels_, bodies_, held_, scene, energy_),
       islands_(scene, bodies_, held_),
       asleep_(islands_.asleep()),
-      extent_((bodies_.rest().rowwise().maxCoeff() - bodies_.rest().rowwise().minCoeff()).norm()),
-      smallest_(least(bodies_, [](const auto& sides) { return sides.norm(); })),
-      thinnest_(least(bodies_, [](const auto& sides) { return sides.minCoeff(); })) {
+      extent_(diagonal<Dim>(bodies_.rest())),
+      smallest_(least(bodies_, diagonal<Dim>)),
+      thinnest_(least(bodies_, thickness<Dim>)) {
     potential_.refuse_unsolvable(options.memory);
     potential_.set_observer(options.on_iterate);
     current_.positions = bodies_.rest();
@@ -65,7 +69,7 @@ Simulation<Dim>::Stepper::Stepper(const Scene& scene,
 
 template <int Dim>
 void Simulation<Dim>::Stepper::start() {
-    refuse_crossings(current_.positions);
+    refuse_crossings(current_.positions, held_);
     evaluate_current();
 }
 
@@ -81,7 +85,7 @@ void Simulation<Dim>::Stepper::evaluate_current() {
 }
 
 // The same of a state that no step has led to: what terms hold of the last one (normal forces of
-// friction, rates of damping, walls of pressure) is of another state.
+// friction, walls of pressure) is of another state.
 template <int Dim>
 void Simulation<Dim>::Stepper::evaluate_anew() {
     evaluate_current();
@@ -101,7 +105,7 @@ void Simulation<Dim>::Stepper::set_body(int body,
     const auto range = bodies_.vertices(static_cast<std::size_t>(body));
     Positions<Dim> all = current_.positions;
     all.middleCols(range.begin, range.size) = positions;
-    refuse_crossings(all);
+    refuse_crossings(all, held_);
     // With what it carries, which is about to fall.
     std::vector<std::size_t> moved = neighbors_of_body(static_cast<std::size_t>(body));
     moved.push_back(static_cast<std::size_t>(body));
@@ -136,8 +140,13 @@ template <int Dim>
 void Simulation<Dim>::Stepper::restore(const Snapshot<Dim>& snapshot) {
     const double time = static_cast<double>(snapshot.steps) * scene_.dt();
     energy_.sum.set_time({std::max(0.0, time - scene_.dt()), time});
+    // What is held is that of the last step until the next one begins.
+    const std::uint64_t last_step = std::max<std::uint64_t>(snapshot.steps, 1) - 1;
+    HeldVertices<Dim> held = held_;
+    static_cast<void>(held.hold(last_step, snapshot.positions));
+    static_cast<void>(held.hold_for_host(snapshot.host.held, snapshot.host.targets));
     try {
-        refuse_crossings(snapshot.positions);
+        refuse_crossings(snapshot.positions, held);
     } catch (const CrossingError<Dim>&) {
         evaluate_current();  // obstacles are where they were
         throw;
@@ -155,9 +164,7 @@ void Simulation<Dim>::Stepper::restore(const Snapshot<Dim>& snapshot) {
         energy_.attachments->set_broken(snapshot.broken_springs);
         energy_.sum.invalidate();
     }
-    // What is held is that of the last step until the next one begins.
-    bool has_changed =
-        !held_.hold(std::max<std::uint64_t>(steps_, 1) - 1, current_.positions).empty();
+    bool has_changed = !held_.hold(last_step, current_.positions).empty();
     has_changed = restore_host(snapshot.host) || has_changed;
     held_.set_places(snapshot.hold_places);
     if (has_changed) {
@@ -180,10 +187,12 @@ Energies Simulation<Dim>::Stepper::energies() const {
     return {kinetic_energy(current_.velocities), energy_.sum.energies()};
 }
 
-// Throws unless the barrier finds nothing that crosses.
+// Throws unless the barrier finds nothing that crosses, where these vertices are held.
 template <int Dim>
-void Simulation<Dim>::Stepper::refuse_crossings(const Positions<Dim>& positions) const {
-    const std::vector<contact::Crossing> crossings = energy_.contact->find_crossings(positions);
+void Simulation<Dim>::Stepper::refuse_crossings(const Positions<Dim>& positions,
+                                                const HeldVertices<Dim>& held) const {
+    const std::vector<contact::Crossing> crossings =
+        energy_.contact->find_crossings(scene_, bodies_, held, positions);
     if (!crossings.empty()) {
         throw crossing_error(bodies_, *energy_.contact, crossings, positions);
     }
@@ -345,7 +354,7 @@ StepReport Simulation<Dim>::Stepper::step() {
                 energy_.elasticity->activation_work(start, current_.positions, span);
         }
         ++steps_;
-        energy_.grabs->arrive(time());
+        energy_.grabs->arrive();
         evaluate_current();
         break_springs();
         put_to_sleep();

@@ -110,7 +110,7 @@ private:
     void forget_history() { history_ = {}; }
     void evaluate_current();
     void evaluate_anew();
-    void refuse_crossings(const Positions<Dim>& positions) const;
+    void refuse_crossings(const Positions<Dim>& positions, const HeldVertices<Dim>& held) const;
     void add_work(StepReport& report);
     [[nodiscard]] std::vector<std::uint8_t> broken_springs() const;
     [[nodiscard]] std::vector<RegionSummary> regions() const;
@@ -129,7 +129,7 @@ private:
     std::vector<bool> asleep_;  // bodies that have no dofs now
     double extent_;             // diagonal of the box around all bodies at rest, m
     double smallest_;           // the least diagonal of the boxes around bodies at rest, m
-    double thinnest_;           // shortest side of the boxes around bodies at rest, m
+    double thinnest_;           // least thickness of bodies at rest, m
     State<Dim> current_;
     State<Dim> next_;
     Positions<Dim> forces_;  // at the current positions, N

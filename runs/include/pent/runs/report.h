@@ -57,9 +57,9 @@ struct RunReport {
     /// Of meshes, settings, units, and of what overlaps at the start.
     std::vector<std::string> warnings;
     simulator::SimulationSize size;
-    double thinnest = 0;              ///< Shortest side of the boxes around the bodies at rest, m.
-    std::vector<BodyReport> bodies;   ///< In the order of the scene.
-    std::vector<FrameReport> frames;  ///< Every frame in the folder, frame 0 included.
+    double thinnest = 0;                       ///< Thickness of the thinnest body at rest, m.
+    std::vector<BodyReport> bodies;            ///< In the order of the scene.
+    std::vector<FrameReport> frames;           ///< Every frame in the folder, frame 0 included.
     std::vector<simulator::StepReport> steps;  ///< Every step behind them.
     std::vector<RunPart> parts;                ///< The last is the last call of run().
     double seconds = 0;                        ///< Spent in all parts.

@@ -66,10 +66,6 @@ struct Scene {
 /// The place of a body among those of a scene, which has one of this name.
 [[nodiscard]] std::uint32_t index_of(const Scene& scene, const std::string& body);
 
-/// Whether two bodies of a scene with [contact], or one with itself, see each other, by their
-/// places: what `self`, `ignore`, `only` and attachments say together.
-[[nodiscard]] bool may_touch(const Scene& scene, std::size_t a, std::size_t b);
-
 /// Throws an Error that names the entry unless every number is in its range, vectors have the
 /// scene's dimension, names are unique and valid, and constraints name bodies of the scene.
 void check(const Scene& scene);

@@ -116,7 +116,8 @@ public:
                      const Positions<Dim>& targets);
 
     /// Lets vertices go: they are free, or again where a constraint has them at the end of the next
-    /// step. Those that no host holds are left alone.
+    /// step. Those that no host holds are left alone. A CrossingError where a barrier would not have
+    /// them free as they are.
     void release(int body, const std::vector<std::uint32_t>& vertices);
 
     /// Takes hold of a point. The number returned stands for the grab below.
