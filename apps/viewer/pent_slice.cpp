@@ -33,8 +33,8 @@ void add_options(CLI::App& cli, Arguments& arguments) {
     cli.add_flag("--obstacles", arguments.has_obstacles,
                  "Add the obstacles of the scene, planes cut off around the bodies");
     cli.add_flag("--boundary", arguments.has_boundary,
-                 "Add the whole boundary as tetrahedra with w, speed and strain, VTU, for ParaView "
-                 "to slice");
+                 "Add the whole boundary as tetrahedra with w, speed, strain and all quantities of "
+                 "frames and meshes, VTU, for ParaView to slice");
 }
 
 viewer::SurfaceFormat to_format(const std::string& name) {

@@ -150,6 +150,13 @@ PENT_PLUGIN_API const char* pent_scene_text(const char* scene,
                                             const char* name,
                                             const char* folder);
 
+/** The same for a file in another folder: paths of meshes, and of files in recipes, which are
+ * relative to `folder`, come out relative to `target`, as in the folder of a run. */
+PENT_PLUGIN_API const char* pent_scene_text_for(const char* scene,
+                                                const char* name,
+                                                const char* folder,
+                                                const char* target);
+
 /** pent_open_text() of a text with such a name and folder. */
 PENT_PLUGIN_API pent_simulation* pent_open_scene(const char* scene,
                                                  const char* name,

@@ -86,7 +86,11 @@ int pent_find_body(const pent_simulation* simulation, const char* name) {
         const auto found = std::find_if(bodies.begin(), bodies.end(),
                                         [&](const auto& body) { return body.name == name; });
         if (found == bodies.end()) {
-            throw Error(std::string("no body is called \"") + name + "\"");
+            std::string names;
+            for (const auto& body : bodies) {
+                names += (names.empty() ? "" : ", ") + body.name;
+            }
+            throw Error(std::string("no body is called \"") + name + "\"; there are " + names);
         }
         return static_cast<int>(found - bodies.begin());
     });

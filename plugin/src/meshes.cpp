@@ -3,6 +3,7 @@
 #include "handles.h"
 
 #include <pent/facets.h>
+#include <pent/runs/relocated.h>
 #include <pent/runs/scene_file.h>
 #include <pent/validate_extras.h>
 
@@ -313,6 +314,22 @@ const char* pent_scene_text(const char* scene, const char* name, const char* fol
         require(folder, "folder");
         static thread_local std::string text;
         text = runs::scene_text(runs::parse_scene(scene, name, folder));
+        return text.c_str();
+    });
+}
+
+const char* pent_scene_text_for(const char* scene,
+                                const char* name,
+                                const char* folder,
+                                const char* target) {
+    return guarded<const char*>(nullptr, [&] {
+        require(scene, "scene");
+        require(name, "name");
+        require(folder, "folder");
+        require(target, "target");
+        static thread_local std::string text;
+        text = runs::scene_text(
+            runs::relocated(runs::parse_scene(scene, name, folder), folder, target));
         return text.c_str();
     });
 }

@@ -245,6 +245,7 @@ _FUNCTIONS: dict[str, tuple[Any, tuple[Any, ...]]] = {
     "pent_frame_field": (c_int, (c_void_p, c_int64, POINTER(Field))),
     "pent_free_frame": (c_int, (c_void_p,)),
     "pent_scene_text": (c_char_p, (c_char_p, c_char_p, c_char_p)),
+    "pent_scene_text_for": (c_char_p, (c_char_p, c_char_p, c_char_p, c_char_p)),
 }
 
 

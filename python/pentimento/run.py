@@ -79,6 +79,7 @@ class Run:
         path_bytes(path)
         self.path = Path(path)
         self._meshes: dict[str, Mesh] = {}
+        self._whole: set[int] = set()  # numbers of frames that every body had when asked
         names = sorted(file.stem for file in self.path.glob("meshes/*.pent"))
         if not names:
             raise Error(f"{self.path}: expected the folder of a run, with meshes/BODY.pent in it")
@@ -123,7 +124,7 @@ class Run:
         Raises an IndexError if it is not there, an Error if it is damaged or of another mesh."""
         name = self._name(body)
         whole(number, -(2**62), 2**62, "frame")
-        if number < 0 or not self._is_there(number):
+        if number < 0 or not self._is_there(number) or not self._file(number, name).exists():
             frames = self.frames
             if number < 0 and -number <= len(frames):
                 number = frames[number]
@@ -133,8 +134,13 @@ class Run:
         return self._read(number, name)
 
     def _is_there(self, number: int) -> bool:
-        # Asks for its files alone: who reads all frames would list all of them for each.
-        return all(self._file(number, name).exists() for name in self.bodies)
+        # Asks for its files alone, and once: who reads all frames would list all of them for each,
+        # and who reads all bodies would ask for those of all of them for each.
+        if number not in self._whole:
+            if not all(self._file(number, name).exists() for name in self.bodies):
+                return False
+            self._whole.add(number)
+        return True
 
     def _file(self, number: int, name: str) -> Path:
         return self.path / "frames" / f"{name}_{number:06d}.pent"

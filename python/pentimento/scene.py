@@ -158,7 +158,7 @@ class Scene:
         with tempfile.TemporaryDirectory(prefix="pentimento-") as place:
             path = Path(place, "scene.toml")
             files = Path(os.path.abspath(folder) + ".meshes")
-            tables = self._tables_of_files(files)
+            tables = self._tables_of_files(files, place)
             path.write_text(_toml.dumps(tables), "utf-8", "surrogateescape")
             with FrameCounter(Path(folder), self.frames + 1, progress) as counter:
                 _programs.run("pent-sim", path, words, allowed=(0, 3), tick=counter.look)
@@ -168,11 +168,15 @@ class Scene:
                 file.unlink()
         return Run(folder)
 
-    def _tables_of_files(self, folder: Path) -> dict[str, Any]:
-        """The tables with a file for each mesh."""
+    def _tables_of_files(self, folder: Path, place: str) -> dict[str, Any]:
+        """The tables with a file for each mesh, for a scene file in `place`."""
         tables = self.tables
-        for body in tables["body"]:
+        moved = library().pent_scene_text_for(*self._source, path_bytes(place))
+        of_place = tomllib.loads(moved.decode("utf-8", "surrogateescape"))
+        for body, there in zip(tables["body"], of_place["body"], strict=True):
             name = body["name"]
+            if "recipe" in there:
+                body["recipe"] = there["recipe"]
             if name in self._given:
                 body["mesh"] = str(_write_beside(folder, name, self._meshes[name]))
             else:

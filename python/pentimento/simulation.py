@@ -51,6 +51,12 @@ class Simulation(Sight):
     ) -> None:
         self.close()
 
+    def __reduce__(self) -> Any:
+        raise TypeError(
+            "a simulation cannot be pickled or copied: it is in the memory of this process alone;"
+            " its scene can be, and simulates anew"
+        )
+
     # What you do. It counts from the next step on.
 
     def step(self, count: int = 1, *, progress: bool = False) -> StepReport:

@@ -44,6 +44,29 @@ def test_reading_all_frames_does_not_list_the_folder_for_each(run, monkeypatch):
         assert len(listings) <= 1
 
 
+def test_reading_all_bodies_does_not_look_for_all_of_them_for_each(run, monkeypatch):
+    questions = []
+    exists = pathlib.Path.exists
+    monkeypatch.setattr(
+        pathlib.Path, "exists", lambda path: questions.append(path.name) or exists(path)
+    )
+    fresh = Run(run.path)
+    for _ in range(3):
+        for name in fresh.bodies:
+            for number in range(7):
+                fresh.frame(number, name)
+    files = [name for name in questions if name.endswith(".pent")]
+    assert len(files) == 3 * 2 * 7 + 2 * 7  # its own for each, and those of all once
+
+
+def test_a_frame_that_goes_is_missed(run, tmp_path):
+    shrinking = Run(shutil.copytree(run.path, tmp_path / "run"))
+    assert shrinking.frame(6, "high").number == 6
+    (shrinking.path / "frames" / "high_000006.pent").unlink()
+    with pytest.raises(IndexError, match="has no frame 6; there are 0 to 5"):
+        shrinking.frame(6, "high")
+
+
 def test_a_frame_is_there_when_every_body_has_it(run, tmp_path):
     growing = Run(shutil.copytree(run.path, tmp_path / "run"))
     (growing.path / "frames" / "high_000006.pent").unlink()

@@ -2,6 +2,7 @@
 
 import math
 import pathlib
+import shlex
 import subprocess
 import tomllib
 
@@ -105,6 +106,32 @@ def test_a_run_of_a_scene_built_in_python_runs_again_by_itself(tmp_path, tessera
     again = run.scene.run(tmp_path / "two")
     np.testing.assert_array_equal(run.array(), again.array())
     np.testing.assert_array_equal(run.mesh("high").points, again.mesh("high").points)
+
+
+def test_a_scene_from_another_folder_runs_as_pent_sim_runs_it(tmp_path, tesseract, monkeypatch):
+    there = tmp_path / "scenes"
+    there.mkdir()
+    (tmp_path / "models").mkdir()
+    (tmp_path / "models" / "my shape.obj").write_text("v 0 0 0\n")
+    (there / "profile.txt").write_text("0 1\n1 1\n")
+    tesseract.write(there / "a.pent")
+    recipe = "'../models/my shape.obj' --profile=profile.txt --layers 2 none.txt"
+    text = f"[scene]\nframes = 1\n{BODY}recipe = \"{recipe}\"\n"
+    (there / "scene.toml").write_text(text)
+    pent_sim = _programs.find("pent-sim")
+    for at, name in ((tmp_path, "scenes/scene.toml"), (there, there / "scene.toml")):
+        monkeypatch.chdir(at)
+        scene = Scene.read(name)
+        run = scene.run("by python", force=True)
+        subprocess.run([pent_sim, name, "-o", "by pent-sim", "--quiet", "--force"], check=True)
+        for file in ("scene.toml", "meshes/a.pent", "frames/a_000001.pent"):
+            assert (run.path / file).read_bytes() == (at / "by pent-sim" / file).read_bytes()
+        words = run.scene.tables["body"][0]["recipe"]
+        assert words.endswith("--layers 2 none.txt")
+        shape = shlex.split(words)[0]
+        assert (run.path / shape).samefile(tmp_path / "models" / "my shape.obj")
+    # What was read stays as it was written.
+    assert scene.tables["body"][0]["recipe"] == recipe
 
 
 def test_a_folder_that_is_taken_is_refused(tmp_path, tesseract):

@@ -196,6 +196,16 @@ def test_nothing_works_after_the_end(scene):
     assert repr(simulation) == "<pentimento.Simulation: closed>"
 
 
+def test_what_is_in_memory_alone_says_so_and_all_else_is_pickled(simulation):
+    for act in (pickle.dumps, copy.copy, copy.deepcopy):
+        with pytest.raises(TypeError, match="a simulation cannot be pickled or copied"):
+            act(simulation)
+    for one in (simulation.step(), simulation.energies(), simulation.slice("low")):
+        assert type(pickle.loads(pickle.dumps(one))) is type(one)
+    with pytest.raises(Error, match='no body is called "hihg"; there are low, high'):
+        simulation.positions("hihg")
+
+
 def test_two_threads_at_once_are_refused_or_take_turns(simulation):
     wrong = []
     refused = []

@@ -199,6 +199,30 @@ TEST_F(AnExportedPage, HoldsFieldsThatAllBodiesHave) {
     EXPECT_LT(said.find("\"fields\":[{\"name\":\"phase\""), said.size());
 }
 
+// Of numbers beyond those of floats, and of vectors whose squares are beyond all numbers.
+TEST_F(AnExportedPage, HasEndsThatAreNumbers) {
+    const SimplexMesh<4> mesh = test::jittered_box({2, 2, 2, 2}, 5);
+    MeshExtras<4> extras;
+    const Eigen::RowVectorXd x = mesh.positions.row(0) / mesh.positions.row(0).maxCoeff();
+    extras.vertex_fields = {{"all", 1.7e308 * x.cwiseMax(0.0).cwiseMin(1.0)},
+                            {"flow", 1e200 * mesh.positions}};
+    extras.vertex_fields[0].values(0, 0) = -1.7e308;
+    write_mesh<4>(folder_ / "far.pent", mesh, {}, extras);
+    ASSERT_TRUE(make(folder_ / "far.pent", {}).is_complete);
+    const std::string page = text_of(folder_ / "out.html");
+    const std::string said = element(page, "pent-run");
+    expect_contains(said, {"{\"name\":\"all\",\"low\":-1.7e+308,\"high\":1.7e+308}",
+                           "{\"name\":\"flow\",\"low\":"});
+    EXPECT_EQ(said.find("inf"), std::string::npos);
+    EXPECT_EQ(said.find("nan"), std::string::npos);
+    const std::string bytes = decoded(element(page, "pent-fields"));
+    Eigen::Index last = 0;
+    x.maxCoeff(&last);
+    EXPECT_EQ(static_cast<unsigned char>(bytes.at(0)), 0);
+    const auto inside = static_cast<std::size_t>(last > mesh.vertex_count() / 2 ? last - 1 : last);
+    EXPECT_EQ(static_cast<unsigned char>(bytes.at(inside)), 255);
+}
+
 TEST_F(AnExportedPage, HoldsObstaclesOfEveryFrameAndOnceWhereNoneMoves) {
     const fs::path run = folder_ / "twist";
     const auto obstacles = [&] {

@@ -150,6 +150,32 @@ TEST(FieldColors, RangeFromTheLowToTheHigh) {
     EXPECT_EQ(alone.high, 5);
 }
 
+// Numbers whose squares, or whose distance, are beyond the largest or below the smallest.
+TEST(FieldColors, GoFromEndToEndOfAllNumbers) {
+    const Fields given;
+    Body<4> body;
+    for (const double unit : {1e200, 1e-200}) {
+        body.fields = {{"flow", unit * given.mesh.positions}};
+        Frame<4> frame;
+        frame.positions = given.mesh.positions;
+        frame.velocities = unit * given.mesh.positions;
+        frame.contact_forces = frame.velocities;
+        const Eigen::VectorXd expected = given.mesh.positions.colwise().norm().transpose();
+        for (const char* name : {"flow", "speed", "force"}) {
+            const Eigen::VectorXd found = vertex_values<4>(body, frame, coloring_of(name)) / unit;
+            EXPECT_LT((found - expected).cwiseAbs().maxCoeff(), 1e-15) << name;
+        }
+    }
+    const ColorRange range = {-1.7e308, 1.7e308};
+    for (const double share : {-1.0, -0.5, 0.0, 0.25, 1.0}) {
+        EXPECT_NEAR(range.place(share * 1.7e308, heat()), (1 + share) / 2, 1e-15);
+    }
+    const Eigen::VectorXd ends = Eigen::Vector2d(range.low, range.high);
+    const Eigen::Matrix3Xf colors = surface_colors(ends, heat(), range, 0);
+    EXPECT_EQ(colors.col(0), map_color(ColorMap::Heat, 0));
+    EXPECT_EQ(colors.col(1), map_color(ColorMap::Heat, 1));
+}
+
 TEST(FieldColors, AreInTheFilesOfSlicesAndOfBoundaries) {
     const TempFolder folder;
     const Fields given;

@@ -47,12 +47,12 @@ Eigen::VectorXd vertex_speed(const Frame<Dim>& frame) {
     if (frame.velocities.cols() == 0) {
         return Eigen::VectorXd::Zero(frame.positions.cols());
     }
-    return frame.velocities.colwise().norm().transpose();
+    return lengths(frame.velocities);
 }
 
 template <int Dim>
 Eigen::VectorXd vertex_force(const Frame<Dim>& frame) {
-    return frame.contact_forces.colwise().norm().transpose();
+    return lengths(frame.contact_forces);
 }
 
 template <int Dim>

@@ -122,7 +122,7 @@ Eigen::VectorXd field_values(const Body<Dim>& body,
         refuse_field(body, frame, name);
     }
     return field->values.rows() == 1 ? Eigen::VectorXd(field->values.transpose())
-                                     : Eigen::VectorXd(field->values.colwise().norm().transpose());
+                                     : lengths(field->values);
 }
 
 }  // namespace

@@ -1,7 +1,7 @@
 import { PentError } from "./error.ts";
 import type { G4mfDocument } from "./g4mf_document.ts";
 import type { JsonEntry } from "./json_entry.ts";
-import { determinant } from "./pent_file.ts";
+import { determinant } from "./mesh.ts";
 
 /** A mesh where a node has it. */
 export interface ModelBody {

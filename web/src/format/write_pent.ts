@@ -1,5 +1,5 @@
 import { crc32c, hex8 } from "./crc32c.ts";
-import type { Mesh } from "./pent_file.ts";
+import type { Mesh } from "./mesh.ts";
 
 const kCells = { 2: "triangle", 3: "tetrahedron", 4: "pentachoron" } as const;
 

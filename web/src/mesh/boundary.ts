@@ -1,6 +1,6 @@
 import { PentError } from "../format/error.ts";
 import { cellName } from "../format/header.ts";
-import type { Mesh } from "../format/pent_file.ts";
+import type { Mesh } from "../format/mesh.ts";
 import { matchFacets, outwardFacet } from "./facets.ts";
 
 /** The closed boundary of a body, made once: what every slice of every frame is cut from. */

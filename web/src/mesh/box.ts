@@ -1,4 +1,4 @@
-import type { Mesh } from "../format/pent_file.ts";
+import type { Mesh } from "../format/mesh.ts";
 
 /** A unit box about the origin: bit k of a vertex's number says on which side along axis k it is. Cut into simplices
  * along its diagonal, one for each order of the axes [kuhn1960]. */

@@ -1,5 +1,5 @@
-import { determinant } from "../format/pent_file.ts";
-import type { Mesh } from "../format/pent_file.ts";
+import { determinant } from "../format/mesh.ts";
+import type { Mesh } from "../format/mesh.ts";
 
 /** Extrudes tetrahedra along w, as pent-mesh does: each prism over a tetrahedron is cut into four pentachora
  * along the staircase of its corners in the order of their numbers, so that neighbors agree.

@@ -1,4 +1,4 @@
-import { determinant } from "../format/pent_file.ts";
+import { determinant } from "../format/mesh.ts";
 import { matchFacets } from "./facets.ts";
 
 /** How tetrahedra meet at their triangles. */

@@ -1,26 +1,47 @@
 import type { Field } from "../format/fields.ts";
-import type { Mesh, MeshFile } from "../format/pent_file.ts";
+import type { Mesh } from "../format/mesh.ts";
+import type { MeshFile } from "../format/pent_file.ts";
+
+/** A number a vertex: floats, or doubles where these would leave the range of floats. */
+export type Values = Float32Array | Float64Array;
+
+/** As floats where these have the digits. */
+export function narrowed(values: Float64Array): Values {
+    const kLargest = 1e20; // so that quotients of two of them are in range, too
+    let largest = 0;
+    for (const value of values) {
+        largest = Math.max(largest, Math.abs(value));
+    }
+    const isInRange = largest === 0 || (largest > 1 / kLargest && largest < kLargest);
+    return isInRange ? Float32Array.from(values) : values;
+}
 
 /** Length of the vector of every vertex, for speeds and forces. */
-export function lengths(vectors: Float64Array, dimension: number): Float32Array {
-    const result = new Float32Array(vectors.length / dimension);
+export function lengths(vectors: Float64Array, dimension: number): Values {
+    const result = new Float64Array(vectors.length / dimension);
+    const kSmall = 1e-150; // below, squares lose digits
     for (let v = 0; v < result.length; ++v) {
+        const at = v * dimension;
         let square = 0;
         for (let axis = 0; axis < dimension; ++axis) {
-            square += vectors[v * dimension + axis]! ** 2;
+            square += vectors[at + axis]! ** 2;
         }
-        result[v] = Math.sqrt(square);
+        const length = Math.sqrt(square);
+        result[v] =
+            length > kSmall && length < Infinity
+                ? length
+                : Math.hypot(...vectors.subarray(at, at + dimension));
     }
-    return result;
+    return narrowed(result);
 }
 
 /** What every vertex is colored by, by the name of the quantity: a number as it is, vectors by their length. Where two
  * have one name it is the first. */
-export function scalarsOf(fields: Field[]): Map<string, Float32Array> {
-    const scalars = new Map<string, Float32Array>();
+export function scalarsOf(fields: Field[]): Map<string, Values> {
+    const scalars = new Map<string, Values>();
     for (const { name, size, values } of fields) {
         if (!scalars.has(name)) {
-            scalars.set(name, size === 1 ? Float32Array.from(values) : lengths(values, size));
+            scalars.set(name, size === 1 ? narrowed(values) : lengths(values, size));
         }
     }
     return scalars;

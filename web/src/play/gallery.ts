@@ -1,4 +1,4 @@
-import type { Mesh } from "../format/pent_file.ts";
+import type { Mesh } from "../format/mesh.ts";
 import { readMesh } from "../format/pent_file.ts";
 import { writeMesh } from "../format/write_pent.ts";
 import { extrude } from "../mesh/extrude.ts";

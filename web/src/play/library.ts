@@ -123,6 +123,7 @@ export class Library {
 const kGivesAddress = new Set([
     "play_open",
     "play_contact_forces",
+    "play_mesh_path",
     "play_obstacles",
     "pent_cells",
     "pent_rest_positions",
@@ -173,6 +174,11 @@ export class Simulation {
 
     name(body: number): string {
         return this.library.text(this.library.call("pent_body_name", this.handle, body));
+    }
+
+    /** The file of its mesh, as seen from the current folder. */
+    meshPath(body: number): string {
+        return this.library.text(this.library.call("play_mesh_path", this.handle, body));
     }
 
     vertexCount(body: number): number {

@@ -1,8 +1,11 @@
 import { PentError } from "../format/error.ts";
-import type { Mesh } from "../format/pent_file.ts";
+import type { Mesh } from "../format/mesh.ts";
+import { readMesh } from "../format/pent_file.ts";
 import { makeBoundary } from "../mesh/boundary.ts";
-import { lengths, toFloat4 } from "../mesh/quantities.ts";
+import { lengths, makeRestCells, toFloat4, vertexFields } from "../mesh/quantities.ts";
 import type { BodyFrame } from "../run/decode.ts";
+import { namedFields } from "../run/quantities.ts";
+import type { Quantities } from "../run/quantities.ts";
 import type { Moment } from "../run/run.ts";
 import { makeEmpty, write } from "./folders.ts";
 import type { Hit, Library, Ray, Simulation, StepReport } from "./library.ts";
@@ -22,6 +25,7 @@ type Notice = (text: string, isError: boolean) => void;
 export class Playground {
     private simulation: Simulation | null = null;
     private path = "";
+    private files: SceneFiles = new Map();
     private pace = new Pace();
     private settings = { stiffness: 1, damping: 0, stepsPerSecond: kUsualRate };
     private isAutomatic = true;
@@ -42,14 +46,10 @@ export class Playground {
      *
      * @param files  The scene file and its meshes, by path. */
     open(files: SceneFiles, path: string): OpenedScene {
-        const { FS } = this.library.module;
-        makeEmpty(FS, kFolder);
-        files.forEach((bytes, name) => write(FS, `${kFolder}/${name}`, bytes));
-        FS.chdir(kFolder); // so that messages name files as the person does
-        const asWritten = { stiffness: 1, damping: null, stepsPerSecond: null };
-        const simulation = this.library.open(path, asWritten, null);
+        const simulation = this.openFiles(files, path);
         this.simulation?.close();
         this.path = path;
+        this.files = files;
         this.forget();
         this.begin(simulation);
         return {
@@ -60,7 +60,7 @@ export class Playground {
                 vertexCount: mesh.vertexCount,
                 cellCount: mesh.cellCount,
                 boundary: makeBoundary(mesh, simulation.name(body)),
-                fields: new Map(),
+                fields: this.fieldsOf(body),
             })),
             rests: this.meshes(),
             moment: this.moment(),
@@ -243,6 +243,31 @@ export class Playground {
             crc: 0,
             createdBy: "",
         }));
+    }
+
+    // Files of a scene that cannot be opened make room again for those of the one that stays.
+    private openFiles(files: SceneFiles, path: string): Simulation {
+        const { FS } = this.library.module;
+        const put = (some: SceneFiles) => {
+            makeEmpty(FS, kFolder);
+            some.forEach((bytes, name) => write(FS, `${kFolder}/${name}`, bytes));
+        };
+        put(files);
+        FS.chdir(kFolder); // so that messages name files as the person does
+        try {
+            const asWritten = { stiffness: 1, damping: null, stepsPerSecond: null };
+            return this.library.open(path, asWritten, null);
+        } catch (error) {
+            put(this.files);
+            throw error;
+        }
+    }
+
+    // What the file of a body's mesh has beside it.
+    private fieldsOf(body: number): Quantities {
+        const path = this.held.meshPath(body);
+        const mesh = readMesh(this.library.module.FS.readFile(path), path);
+        return namedFields(vertexFields(mesh, () => makeRestCells(mesh)));
     }
 
     private begin(simulation: Simulation): void {

@@ -1,4 +1,4 @@
-import type { Mesh } from "../format/pent_file.ts";
+import type { Mesh } from "../format/mesh.ts";
 import type { Body } from "../run/decode.ts";
 import type { Moment } from "../run/run.ts";
 import type { Hit, Ray } from "./library.ts";

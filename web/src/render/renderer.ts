@@ -30,6 +30,11 @@ export class Renderer {
     private plainArray: WebGLVertexArrayObject;
     private canDrawFloats: boolean;
 
+    /** Whether the graphics card has stopped. */
+    get isLost(): boolean {
+        return this.gl.isContextLost();
+    }
+
     /** Throws a PentError where WebGL 2 is not there. */
     constructor(readonly canvas: HTMLCanvasElement | OffscreenCanvas) {
         const gl = canvas.getContext("webgl2", {

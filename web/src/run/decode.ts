@@ -144,7 +144,7 @@ export class ModelDecoder {
             orientOutward(points, tetrahedra);
             const vertexCount = points.length / 4;
             const boundary = indexBoundary(tetrahedra, 4, vertexCount);
-            const fields = new Map<string, Float32Array>();
+            const fields: Quantities = new Map();
             return { name, dimension: 4, vertexCount, cellCount: 0, boundary, fields };
         });
         return { bodies, frames: this.model.frames };

@@ -3,6 +3,7 @@ import { JsonEntry } from "../format/json_entry.ts";
 import { readObstacles } from "../format/obstacles.ts";
 import type { Obstacle } from "../format/obstacles.ts";
 import { indexBoundary } from "../mesh/boundary.ts";
+import { narrowed } from "../mesh/quantities.ts";
 import type { Body, BodyFrame } from "./decode.ts";
 import type { Quantities } from "./quantities.ts";
 import type { Moment, Run } from "./run.ts";
@@ -108,9 +109,11 @@ function decoded(coded: Coded[], bytes: Uint8Array, vertexCount: number): Quanti
     return new Map(
         coded.map(({ name, low, high }, i) => [
             name,
-            Float32Array.from(
-                bytes.subarray(i * vertexCount, (i + 1) * vertexCount),
-                (value) => low + (value / 255) * (high - low),
+            narrowed(
+                Float64Array.from(
+                    bytes.subarray(i * vertexCount, (i + 1) * vertexCount),
+                    (value) => (1 - value / 255) * low + (value / 255) * high,
+                ),
             ),
         ]),
     );

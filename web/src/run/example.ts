@@ -1,4 +1,4 @@
-import type { Mesh } from "../format/pent_file.ts";
+import type { Mesh } from "../format/mesh.ts";
 import { makeBoundary } from "../mesh/boundary.ts";
 import { makeRestCells, strains, toFloat4 } from "../mesh/quantities.ts";
 import type { RestCells } from "../mesh/quantities.ts";

@@ -1,10 +1,11 @@
 import type { Field } from "../format/fields.ts";
 import { scalarsOf } from "../mesh/quantities.ts";
+import type { Values } from "../mesh/quantities.ts";
 import type { Body, BodyFrame } from "./decode.ts";
 
-/** One float a vertex of each quantity that there is, by its name: "speed", "force" (of contact), "strain" where it was
+/** One number a vertex of each quantity that there is, by its name: "speed", "force" (of contact), "strain" where it was
  * asked for, or that of a field. */
-export type Quantities = Map<string, Float32Array>;
+export type Quantities = Map<string, Values>;
 
 const kOwn = ["body", "w", "speed", "strain", "force"];
 
@@ -18,6 +19,6 @@ export function namedFields(fields: Field[]): Quantities {
 }
 
 /** A quantity of a body: of the frame, or else of the mesh. */
-export function quantityOf(body: Body, frame: BodyFrame, name: string): Float32Array | undefined {
+export function quantityOf(body: Body, frame: BodyFrame, name: string): Values | undefined {
     return frame.quantities.get(name) ?? body.fields.get(name);
 }

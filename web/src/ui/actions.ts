@@ -1,5 +1,6 @@
 import { reachAlongW } from "../view/bounds.ts";
 import { slicePlaces } from "../view/compose.ts";
+import { rounded, timeText } from "../view/digits.ts";
 import { axesOf, identity, kPlanes } from "../view/rotation.ts";
 import { defaultState, kGhosts, kLayouts } from "../view/state.ts";
 import type { Viewer } from "../view/viewer.ts";
@@ -23,7 +24,7 @@ export function moveW(viewer: Viewer, by: number): void {
     const { state, bounds } = viewer;
     const [low, high] = bounds.reach(state.rotation, 3);
     const w = (state.w ?? bounds.pivot[3]) + (by * (high - low)) / 100;
-    viewer.update({ w: Number(Math.min(Math.max(w, low), high).toPrecision(6)) });
+    viewer.update({ w: rounded(Math.min(Math.max(w, low), high), (high - low) / 100) });
 }
 
 export function zoom(viewer: Viewer, factor: number): void {
@@ -136,7 +137,7 @@ export function describe(viewer: Viewer): string {
         return "No body is open";
     }
     const places = slicePlaces(state, viewer.bounds, run.dimension).map((w) =>
-        Number(w.toPrecision(3)),
+        rounded(w, viewer.bounds.size),
     );
     const shift = viewer.bounds.shift(state.rotation)[3];
     const [low, high] = reachAlongW(moment, state.rotation, shift);
@@ -144,7 +145,9 @@ export function describe(viewer: Viewer): string {
     const slice = `Slice at w = ${places.join(", ")} m${isEmpty ? ", where no body is," : ""}`;
     const what = run.dimension === 3 ? "Whole bodies" : slice;
     const time =
-        run.frames.length > 1 ? `, frame ${moment.frame}, ${moment.time.toFixed(2)} s` : "";
+        run.frames.length > 1
+            ? `, frame ${moment.frame}, ${timeText(moment.time, viewer.secondsPerFrame)}`
+            : "";
     const color = state.color === "body" ? "" : `, colored by ${state.color}`;
     return `${what} of ${run.title}${time}${color}`;
 }

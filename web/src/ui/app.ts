@@ -186,14 +186,14 @@ export class App {
         }
     }
 
-    private async open(run: Run, state: ViewState): Promise<void> {
+    // Gives whether it is shown: not where that fails, or another one was opened meanwhile.
+    private async open(run: Run, state: ViewState): Promise<boolean> {
         ++this.opening;
         byId("welcome").hidden = true;
-        const before = this.viewer.run;
-        await this.attempt(() => this.viewer.open(run, state));
-        if (this.viewer.run === before) {
+        const isShown = await this.attempt(() => this.viewer.open(run, state));
+        if (!isShown) {
             run.close();
-            return;
+            return false;
         }
         const isLive = run.stage !== undefined;
         this.mode.show(isLive ? "play" : "view");
@@ -203,6 +203,7 @@ export class App {
         this.title.textContent = run.title;
         document.title = `${run.title} \u2013 Pentimento`;
         this.messages.say(describe(this.viewer));
+        return true;
     }
 
     // What stays when another run opens: how things are shown, not where.

@@ -1,4 +1,5 @@
 import { sliceLabel } from "../view/compose.ts";
+import { rounded, timeText } from "../view/digits.ts";
 import type { Viewer } from "../view/viewer.ts";
 import { button } from "./controls.ts";
 import { element, icon } from "./dom.ts";
@@ -83,7 +84,7 @@ export class Bottom {
 
     private toW(step: number): number {
         const [low, high] = this.viewer.bounds.reach(this.viewer.state.rotation, 3);
-        return Number((low + ((high - low) * step) / kSteps).toPrecision(4));
+        return rounded(low + ((high - low) * step) / kSteps, high - low);
     }
 
     private show(): void {
@@ -96,11 +97,12 @@ export class Bottom {
         const [low, high] = bounds.reach(state.rotation, 3);
         const w = state.w ?? bounds.pivot[3];
         this.w.value = String(Math.round(((w - low) / (high - low || 1)) * kSteps));
-        this.wValue.textContent = `${sliceLabel(w).slice(4)} m`;
-        this.w.ariaValueText = `${sliceLabel(w)} meters`;
+        const label = sliceLabel(w, bounds.size);
+        this.wValue.textContent = `${label.slice(4)} m`;
+        this.w.ariaValueText = `${label} meters`;
         this.time.max = String(run.frames.length - 1);
         this.time.value = String(this.viewer.place);
-        const seconds = `${(moment?.time ?? 0).toFixed(2)} s`;
+        const seconds = timeText(moment?.time ?? 0, this.viewer.secondsPerFrame);
         this.timeValue.textContent = seconds;
         this.time.ariaValueText = `frame ${state.frame ?? run.frames[0]}, ${seconds}`;
         this.loop.ariaPressed = String(state.loop);

@@ -3,6 +3,7 @@ import type { Picture, Tile } from "../render/picture.ts";
 import { sliceLabel, slicePlaces } from "../view/compose.ts";
 import { bodyColor, colorTitle, rangeColors, toCss } from "../view/colors.ts";
 import type { Color } from "../view/colors.ts";
+import { roughly, timeText } from "../view/digits.ts";
 import { short } from "../view/state.ts";
 import type { Viewer } from "../view/viewer.ts";
 import { element, svg } from "./dom.ts";
@@ -52,7 +53,9 @@ export class Overlay {
             this.viewer.run!.dimension,
         );
         const isTiled = picture.tiles.length > 1;
-        const texts = picture.tiles.map((tile, i) => tileText(tile, isTiled ? places[i]! : null));
+        const texts = picture.tiles.map((tile, i) =>
+            tileText(tile, isTiled ? places[i]! : null, this.viewer.bounds.size),
+        );
         const key = `${picture.width} ${picture.height} ${texts.join()}`;
         if (key === this.labelsShown) {
             return;
@@ -88,9 +91,10 @@ export class Overlay {
             return;
         }
         this.skinsShown = key;
+        const { size } = this.viewer.bounds;
         const entries = slices.length > 1 ? [...slices].reverse() : [];
         this.skins.replaceChildren(
-            ...entries.map(({ w, ghost }) => entry(ghost, sliceLabel(Number(w.toPrecision(6))))),
+            ...entries.map(({ w, ghost }) => entry(ghost, sliceLabel(w, size))),
         );
     }
 
@@ -136,17 +140,15 @@ function entry(color: Color | null, text: string): HTMLElement {
 }
 
 // "w = 0.05, all solid": what there is to say of a tile.
-function tileText(tile: Tile, w: number | null): string {
-    const place = w === null ? "" : sliceLabel(Number(w.toPrecision(6)));
+function tileText(tile: Tile, w: number | null, size: number): string {
+    const place = w === null ? "" : sliceLabel(w, size);
     const solid = tile.isAllSolid ? "all solid" : "";
-    const away = tile.away ? (w === null ? whereElse(tile.away) : "empty") : "";
+    const away = tile.away ? (w === null ? whereElse(tile.away, size) : "empty") : "";
     return [place, solid, away].filter((text) => text !== "").join(", ");
 }
 
-function whereElse([low, high]: [number, number]): string {
-    const [from, to] = [low, high].map((w) =>
-        short(Number(w.toFixed(2)), 4).replace("-", "\u2212"),
-    );
+function whereElse([low, high]: [number, number], size: number): string {
+    const [from, to] = [low, high].map((w) => String(roughly(w, size)).replace("-", "\u2212"));
     return `no body here: from w = ${from} to ${to}`;
 }
 
@@ -164,17 +166,20 @@ export function drawCaption(
     context.textBaseline = "alphabetic";
     context.textAlign = "left";
     const places = slicePlaces(state, bounds, run!.dimension);
-    const time = run!.frames.length > 1 ? `t = ${moment!.time.toFixed(3)} s    ` : "";
+    const time =
+        run!.frames.length > 1 ? `t = ${timeText(moment!.time, viewer.secondsPerFrame)}    ` : "";
     const isTiled = picture.tiles.length > 1;
     const middle = places[Math.floor(places.length / 2)]!;
-    const where = isTiled ? "" : tileText(picture.tiles[0]!, run!.dimension === 3 ? null : middle);
+    const where = isTiled
+        ? ""
+        : tileText(picture.tiles[0]!, run!.dimension === 3 ? null : middle, bounds.size);
     context.fillText(time + where, size, height - size);
     if (isTiled) {
         context.textAlign = "center";
         places.forEach((w, i) => {
             const [x, y, tileWidth, tileHeight] = tileRect(picture, i);
             context.fillText(
-                tileText(picture.tiles[i]!, w),
+                tileText(picture.tiles[i]!, w, bounds.size),
                 x + tileWidth / 2,
                 height - y - tileHeight + 1.6 * size,
             );

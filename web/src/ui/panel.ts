@@ -144,7 +144,8 @@ export class Panel {
             layout.show(state.layout);
             spacing.setRange((high - low) / 1000, (high - low) / 2, (high - low) / 1000);
             count.show(state.slices, 0);
-            spacing.show(viewer.bounds.isEmpty ? 0.1 : spacingOf(state, viewer.bounds), 4);
+            const digits = Math.max(4, 4 - Math.floor(Math.log10(high - low || 1)));
+            spacing.show(viewer.bounds.isEmpty ? 0.1 : spacingOf(state, viewer.bounds), digits);
             count.root.hidden = spacing.root.hidden = state.layout === "single";
         });
         return section("Slices", layout.root, count.root, spacing.root);

@@ -1,3 +1,4 @@
+import type { Values } from "../mesh/quantities.ts";
 import { kColorings } from "../run/quantities.ts";
 
 /** Colors, the same as in the pictures of pent-render. Linear light, 0..1. */
@@ -95,7 +96,7 @@ export function toCss(color: Color): string {
 
 /** What the bar of colors ends at: 0, of fields the first percentile, and the 99th, so that one bad element does not take
  * the colors from all others; for w both ends as they are. */
-export function suitableRange(values: Float32Array, by: string): [number, number] {
+export function suitableRange(values: Values, by: string): [number, number] {
     const sorted = values.slice().sort();
     if (sorted.length === 0) {
         return [0, 0];
@@ -112,6 +113,28 @@ export function suitableRange(values: Float32Array, by: string): [number, number
 export function settled([low, high]: [number, number]): [number, number] {
     const kFloat = 2 ** -22;
     return high - low > kFloat * Math.max(Math.abs(low), Math.abs(high)) ? [low, high] : [low, low];
+}
+
+/** What values and the ends of their range are multiplied by for a graphics card, whose floats end at 1e38 and have few
+ * digits left below 1e-38: a power of two, 1 where they need none. */
+export function unitOf([low, high]: [number, number]): number {
+    const kUsual = 1e20;
+    const largest = Math.max(Math.abs(low), Math.abs(high));
+    if (largest === 0 || (largest > 1 / kUsual && largest < kUsual)) {
+        return 1;
+    }
+    const kMost = 1000; // that 2 to it and 1 over it are numbers
+    return 2 ** -Math.max(-kMost, Math.min(kMost, Math.floor(Math.log2(largest))));
+}
+
+/** Values for the graphics card. What is far out of the range has the color of its end, and stays finite, as its
+ * neighbors in a triangle are mixed with it. */
+export function inUnits(values: Values, unit: number): Float32Array {
+    if (unit === 1 && values instanceof Float32Array) {
+        return values;
+    }
+    const kFar = 1e30;
+    return Float32Array.from(values, (value) => Math.max(-kFar, Math.min(kFar, value * unit)));
 }
 
 /** The colors from the low end of a range to the high one. Where both are one value there is one color: the middle of

@@ -8,7 +8,7 @@ import type { Color } from "./colors.ts";
 import type { Vector } from "./matrix.ts";
 import { placeObstacles } from "./place_obstacles.ts";
 import type { Obstacle } from "../format/obstacles.ts";
-import { short } from "./state.ts";
+import { rounded } from "./digits.ts";
 import type { ViewState } from "./state.ts";
 
 const kBackgrounds: Record<"light" | "dark", Picture["background"] & { ink: Color }> = {
@@ -50,9 +50,9 @@ export function spacingOf(state: ViewState, bounds: Bounds): number {
     return Number(((high - low) / 1.5 / state.slices).toPrecision(2)) || 0.1;
 }
 
-/** "w = 0.05". */
-export function sliceLabel(w: number): string {
-    return `w = ${short(Object.is(w, -0) ? 0 : w, 4)}`.replace("-", "\u2212");
+/** "w = 0.05", with the digits that tell slices of bodies of a size apart. */
+export function sliceLabel(w: number, size: number): string {
+    return `w = ${rounded(w, size)}`.replace("-", "\u2212");
 }
 
 /** How many tiles stand beside one another, so that they are as large as can be; rather without a

@@ -6,7 +6,8 @@ import type { Moment, Run } from "../run/run.ts";
 import { FrameStream } from "../run/stream.ts";
 import { Bounds, reachAlongW } from "./bounds.ts";
 import { Boxes } from "./boxes.ts";
-import { settled, suitableRange } from "./colors.ts";
+import type { Values } from "../mesh/quantities.ts";
+import { inUnits, settled, suitableRange, unitOf } from "./colors.ts";
 import { makeColoring, makePicture } from "./compose.ts";
 import { Pace } from "./pace.ts";
 import { orthonormalize, applyTurn } from "./rotation.ts";
@@ -25,6 +26,7 @@ export interface ViewerEvents {
 
 type Listeners = { [Kind in keyof ViewerEvents]: ((event: ViewerEvents[Kind]) => void)[] };
 
+const kStopped = 3000; // ms that the graphics card may take to come back
 const kSampledFrames = 5; // that bounds are taken from
 const kAhead = 24; // frames to read ahead
 
@@ -36,10 +38,12 @@ export class Viewer {
     moment: Moment | null = null;
     isPlaying = false;
     theme: "light" | "dark" = "light";
-    readonly renderer: Renderer;
+    renderer: Renderer; // another one where the graphics card has come back
     private stream: FrameStream | null = null;
     private ranges = new Map<string, [number, number]>();
     private rangeDone = new Map<string, WeakSet<Moment>>();
+    private unit = 1; // of the numbers that the renderer has
+    private inUnits: { values: Values; floats: Float32Array }[] = []; // of each body
     private listeners: Listeners = {
         state: [],
         run: [],
@@ -48,30 +52,34 @@ export class Viewer {
         playing: [],
         notice: [],
     };
+    private opening = 0; // counts, so that only the last of several openings counts
     private isDue = false;
     private size = { width: 1, height: 1, pixelRatio: 1 };
     private clock = 0; // place in time while playing, in frames
     private lastTick = 0;
     private boxes = new Boxes();
     private pace = new Pace(() => this.requestDraw());
-    private secondsPerFrame = 1 / 30;
+    secondsPerFrame = 1 / 30; // of the run, in the mean
 
     constructor(readonly canvas: HTMLCanvasElement) {
         this.renderer = new Renderer(canvas);
-        canvas.addEventListener("webglcontextlost", () =>
-            this.tell("notice", {
-                text: "graphics: the graphics card has stopped; reload the page",
-                isError: true,
-            }),
-        );
+        // Phones stop it when another page is looked at.
+        canvas.addEventListener("webglcontextlost", (event) => {
+            event.preventDefault(); // so that it may come back
+            setTimeout(() => this.sayStopped(), kStopped);
+        });
+        canvas.addEventListener("webglcontextrestored", () => this.restore());
     }
 
     on<Kind extends keyof ViewerEvents>(kind: Kind, listener: (event: ViewerEvents[Kind]) => void) {
         this.listeners[kind].push(listener);
     }
 
-    /** Shows a run from now on. Rejects, and keeps the old one, where its first frames fail. */
-    async open(run: Run, state: ViewState): Promise<void> {
+    /** Shows a run from now on. Rejects, and keeps the old one, where its first frames fail.
+     *
+     * @return  Whether it is shown: not where another one was to be opened meanwhile. */
+    async open(run: Run, state: ViewState): Promise<boolean> {
+        const turn = ++this.opening;
         const count = run.frames.length;
         const places = [
             ...new Set(
@@ -84,11 +92,16 @@ export class Viewer {
         for (const place of places) {
             moments.push(await run.load(run.frames[place]!));
         }
+        if (turn !== this.opening) {
+            return false;
+        }
         const bounds = new Bounds();
         const seen = run.stage ? [...moments, run.stage] : moments;
         bounds.add(seen);
         bounds.settle(seen);
-        this.renderer.surfaces.setBodies(run.bodies);
+        if (!this.renderer.isLost) {
+            this.renderer.surfaces.setBodies(run.bodies);
+        }
         this.run?.close();
         this.pause();
         this.run = run;
@@ -106,14 +119,19 @@ export class Viewer {
         this.seek(this.placeOf(state.frame ?? run.frames[0]!));
         this.tell("run", run);
         this.tell("state", state);
+        return true;
     }
 
     /** Changes the view. */
     update(patch: Partial<ViewState>): void {
-        const needsFrame = patch.color !== undefined && patch.color !== this.state.color;
+        const needsFrame =
+            (patch.color !== undefined && patch.color !== this.state.color) ||
+            patch.range !== undefined;
         this.state = { ...this.state, ...patch };
-        if (patch.frame !== undefined && patch.frame !== null) {
-            this.seek(this.placeOf(patch.frame));
+        if (patch.frame !== undefined && !this.run?.stage) {
+            const { place } = this;
+            this.clock = Math.floor(this.clock) === place ? this.clock : place;
+            this.seek(place);
         }
         if (needsFrame && this.moment) {
             this.show(this.moment);
@@ -222,6 +240,12 @@ export class Viewer {
         );
     }
 
+    // As the renderer has it.
+    private get shownRange(): [number, number] {
+        const [low, high] = this.range;
+        return [low * this.unit, high * this.unit];
+    }
+
     /** What the moment shown can be colored by, or could if its run had it, by the names that pent-render knows. */
     get colorings(): { name: string; isThere: boolean }[] {
         const bodies = this.moment?.bodies ?? [];
@@ -253,7 +277,7 @@ export class Viewer {
             bounds: this.bounds,
             obstacles: this.moment?.obstacles ?? [],
             reach: this.moment && reachAlongW(this.moment, rotation, shift),
-            coloring: makeColoring(this.state, this.range, this.run?.bodies.length ?? 1),
+            coloring: makeColoring(this.state, this.shownRange, this.run?.bodies.length ?? 1),
         });
     }
 
@@ -266,7 +290,7 @@ export class Viewer {
 
     /** Draws at once. */
     drawNow(): Picture | null {
-        if (!this.run || !this.moment) {
+        if (!this.run || !this.moment || this.renderer.isLost) {
             return null;
         }
         const { width, height, pixelRatio } = this.size;
@@ -283,6 +307,24 @@ export class Viewer {
 
     private tell<Kind extends keyof ViewerEvents>(kind: Kind, event: ViewerEvents[Kind]): void {
         this.listeners[kind].forEach((listener) => listener(event));
+    }
+
+    private sayStopped(): void {
+        if (this.renderer.isLost) {
+            const text = "graphics: the graphics card has stopped; reload the page";
+            this.tell("notice", { text, isError: true });
+        }
+    }
+
+    // What is shown, on the graphics card that has come back.
+    private restore(): void {
+        this.renderer = new Renderer(this.canvas);
+        if (this.run) {
+            this.renderer.surfaces.setBodies(this.run.bodies);
+        }
+        if (this.moment) {
+            this.show(this.moment);
+        }
     }
 
     private tick(now: number): void {
@@ -353,13 +395,12 @@ export class Viewer {
         } else if (color === "strain" && moment.bodies.some((_, i) => !this.quantity(color, i))) {
             void this.addStrain(moment);
         }
-        const { surfaces } = this.renderer;
-        surfaces.setBoxes(this.boxes.of(moment.obstacles, this.run!.dimension));
-        surfaces.setFrame(
-            moment.bodies,
-            moment.bodies.map((_, i) => this.scalarOf(i)),
-        );
         this.growRange(moment);
+        if (!this.renderer.isLost) {
+            const { surfaces } = this.renderer;
+            surfaces.setBoxes(this.boxes.of(moment.obstacles, this.run!.dimension));
+            surfaces.setFrame(moment.bodies, this.scalars());
+        }
         if (isNew) {
             this.tell("moment", moment);
         }
@@ -367,7 +408,7 @@ export class Viewer {
     }
 
     // Of a body at the moment shown.
-    private quantity(name: string, body: number): Float32Array | undefined {
+    private quantity(name: string, body: number): Values | undefined {
         return quantityOf(this.run!.bodies[body]!, this.moment!.bodies[body]!, name);
     }
 
@@ -390,6 +431,9 @@ export class Viewer {
         const { bodies } = this.run!;
         const where = bodies.find((_, i) => !this.quantity(color, i))!;
         const frame = `frame ${this.moment!.frame} of "${where.name}" has`;
+        if (kColorings.includes(color) && this.run!.stage) {
+            return `the playground has no ${color} to color by; pent-sim writes it`;
+        }
         if (kColorings.includes(color)) {
             const asked = color === "force" ? "contact_force" : color;
             return (
@@ -416,12 +460,25 @@ export class Viewer {
         }
     }
 
-    private scalarOf(body: number): Float32Array | null {
+    // What the renderer colors each body by, in units of the range: which may differ from frame to frame.
+    private scalars(): (Float32Array | null)[] {
         const { color } = this.state;
+        const bodies = this.run!.bodies;
         if (color === "body" || color === "w") {
-            return null;
+            this.unit = 1;
+            this.inUnits = [];
+            return bodies.map(() => null);
         }
-        return this.quantity(color, body) ?? new Float32Array(this.run!.bodies[body]!.vertexCount);
+        const unit = unitOf(this.range);
+        this.inUnits = bodies.map(({ vertexCount }, i) => {
+            const values = this.quantity(color, i) ?? new Float32Array(vertexCount);
+            const known = this.inUnits[i];
+            return known?.values === values && unit === this.unit
+                ? known
+                : { values, floats: inUnits(values, unit) };
+        });
+        this.unit = unit;
+        return this.inUnits.map(({ floats }) => floats);
     }
 
     private growRange(moment: Moment): void {

@@ -7,9 +7,10 @@ import { pathToFileURL } from "node:url";
 import { test } from "node:test";
 import type { Page } from "playwright-core";
 import { gridMesh } from "../../src/run/example.ts";
-import { kPage, openPage, useBrowser, useServer } from "../support/browser.ts";
+import { kPage, openPage, pixels, useBrowser, useServer } from "../support/browser.ts";
 import { native } from "../support/native.ts";
-import { twoTets } from "../support/two_tets.ts";
+import { rowsOf } from "../../src/format/write_pent.ts";
+import { lines, twoTets } from "../support/two_tets.ts";
 import { kSixteenCell } from "../support/write_g4mf.ts";
 import { writeFrame, writeMesh } from "../support/write_pent.ts";
 
@@ -41,8 +42,26 @@ const kRun = new Map<string, Uint8Array | string>([
     ]),
 ]);
 
+// The same number of vertices over and over again, by units far beyond those of floats on either side.
+const kUnits = { near: 1, huge: 1e200, full: 1.7e308, tiny: 1e-200, small: 1e-35 };
+const kFar = lines(
+    "ply",
+    "format ascii 1.0",
+    "comment pent 1.0",
+    "comment dimension 4",
+    `element vertex ${kGrid.vertexCount}`,
+    ...["x", "y", "z", "w", ...Object.keys(kUnits)].map((name) => `property double ${name}`),
+    `element pentachoron ${kGrid.cellCount}`,
+    ...[0, 1, 2, 3, 4].map((k) => `property uint v${k}`),
+    "end_header",
+    ...rowsOf(kGrid.positions, 4).map((p) =>
+        [...p, ...Object.values(kUnits).map((unit) => unit * p[0]!)].join(" "),
+    ),
+    ...rowsOf(kGrid.cells, 5).map((cell) => cell.join(" ")),
+);
+
 const browser = useBrowser();
-const server = useServer(new Map([...kRun, ["two.pent", twoTets()]]));
+const server = useServer(new Map([...kRun, ["two.pent", twoTets()], ["far.pent", kFar]]));
 const open = (query: string) => openPage(browser.get(), server.address() + query);
 
 const menuOf = (page: Page) => page.locator("select[aria-label='Color by']");
@@ -107,6 +126,45 @@ test("quantities of frames go over all that was seen, and those of one body are 
     );
     assert.equal(await color(asked.page), "body");
     await asked.close();
+});
+
+test("numbers beyond floats have the colors and the legend that they should", async () => {
+    const { page, said, close } = await open("?run=far.pent#shade=off&floor=off&w=0.3");
+    const seen = new Map<string, number[]>();
+    for (const [name, unit] of Object.entries(kUnits)) {
+        await menuOf(page).selectOption(name);
+        const expected = [-unit, unit].map((end) => String(Number(end.toPrecision(3))));
+        await page.waitForFunction(
+            (title) => document.querySelector(".legend .title")?.textContent === title,
+            name,
+        );
+        assert.deepEqual(await ends(page), expected);
+        seen.set(name, await pixels(page));
+        // A range of one's own goes with the numbers, too.
+        await page.locator("input[aria-label='highest value']").fill(String(unit / 2));
+        await page.locator("input[aria-label='highest value']").press("Tab");
+        seen.set(`${name} to the half`, await pixels(page));
+        // Far from the numbers: all of them have the last color.
+        const low = page.locator("input[aria-label='lowest value']");
+        await low.fill(String(-(name === "near" ? 1e6 : Math.min(1e60 * unit, 1.7e308))));
+        await low.press("Tab");
+        seen.set(`${name} from afar`, await pixels(page));
+    }
+    const levels = new Set(seen.get("near"));
+    assert.ok(levels.size > 30, "there are colors from end to end");
+    for (const name of Object.keys(kUnits)) {
+        for (const more of ["", " to the half", ...(name === "full" ? [] : [" from afar"])]) {
+            // Rounding of floats: a level of 256.
+            const [a, b] = [seen.get(`near${more}`)!, seen.get(name + more)!];
+            assert.ok(
+                a.every((value, i) => Math.abs(value - b[i]!) <= 1),
+                name + more,
+            );
+        }
+    }
+    assert.notDeepEqual(seen.get("near"), seen.get("near to the half"));
+    assert.deepEqual(said, []);
+    await close();
 });
 
 test("an exported page has the quantities of its mesh", async (t) => {

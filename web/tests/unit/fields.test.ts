@@ -7,11 +7,12 @@ import { test } from "node:test";
 import { fieldsOf } from "../../src/format/fields.ts";
 import { parseHeader } from "../../src/format/header.ts";
 import { readMesh } from "../../src/format/pent_file.ts";
-import { makeRestCells, vertexMeans } from "../../src/mesh/quantities.ts";
+import { lengths, makeRestCells, narrowed, vertexMeans } from "../../src/mesh/quantities.ts";
+import type { Values } from "../../src/mesh/quantities.ts";
 import { Decoder } from "../../src/run/decode.ts";
 import { framePath, meshPath } from "../../src/run/listing.ts";
 import { quantityOf } from "../../src/run/quantities.ts";
-import { colorTitle, suitableRange } from "../../src/view/colors.ts";
+import { colorTitle, inUnits, suitableRange, unitOf } from "../../src/view/colors.ts";
 import { messageOf } from "../support/message.ts";
 import { native } from "../support/native.ts";
 import { kPlaces, kTetHead, lines, twoTets } from "../support/two_tets.ts";
@@ -95,6 +96,43 @@ test("a quantity of a frame goes before that of its mesh", () => {
     assert.equal(quantityOf(body, decoded, "phase")![0], 5);
 });
 
+test("numbers beyond those of floats keep their places in a range", () => {
+    const usual = Float64Array.of(-1, -0.25, 0, 0.5, 1);
+    assert.ok(narrowed(usual) instanceof Float32Array);
+    assert.ok(narrowed(new Float64Array(3)) instanceof Float32Array);
+    for (const factor of [1e-310, 1e-200, 1e-40, 1e-21, 1e21, 1e200, 1.7e308]) {
+        const values = narrowed(usual.map((value) => value * factor));
+        assert.ok(values instanceof Float64Array);
+        const range = suitableRange(values, "heat");
+        assert.deepEqual(range, [-factor, 0.5 * factor]); // of five: the first, and the last but one
+        const unit = unitOf(range);
+        const shown = inUnits(values, unit);
+        const [low, high] = [range[0] * unit, range[1] * unit];
+        shown.forEach((value, i) => {
+            const place = (value - low) / (high - low);
+            // Roundings of floats; numbers of 1e-310 have 14 digits.
+            assert.ok(Math.abs(place - (usual[i]! + 1) / 1.5) < 1e-6, `${factor} ${i} ${place}`);
+        });
+    }
+    assert.equal(unitOf([0, 3]), 1);
+    // One number far away does not make the others zero, nor infinite itself.
+    const far = inUnits(narrowed(Float64Array.of(1e300, 1, 2)), unitOf([1, 2]));
+    assert.deepEqual([...far], [Math.fround(1e30), 1, 2]);
+    // A range of one's own, far below the numbers.
+    assert.ok(inUnits(narrowed(usual), unitOf([0, 1e-60])).every(Number.isFinite));
+});
+
+test("vectors have lengths where their squares are no numbers", () => {
+    for (const factor of [1e-320, 1e-200, 1, 1e200, 3e307]) {
+        const [a, b] = lengths(
+            Float64Array.of(3, 0, 4, 0, 0, 0).map((x) => x * factor),
+            3,
+        );
+        assert.ok(Math.abs(a! / (5 * factor) - 1) < 1e-3, `${a}`); // of 1e-320: three digits
+        assert.equal(b, 0);
+    }
+});
+
 /** Numbers of a quantity at places in space. */
 interface Seen {
     place: number[];
@@ -117,7 +155,7 @@ function readSlice(path: string): Seen[] {
 function crossings(
     mesh: ReturnType<typeof readMesh>,
     at: Float32Array,
-    values: Float32Array,
+    values: Values,
     w: number | null,
 ) {
     const place = (v: number) => [0, 1, 2, 3].map((k) => at[4 * v + k]!);

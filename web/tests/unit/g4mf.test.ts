@@ -6,7 +6,7 @@ import { join } from "node:path";
 import { test } from "node:test";
 import { G4mfModel } from "../../src/format/g4mf.ts";
 import { G4mfDocument } from "../../src/format/g4mf_document.ts";
-import { determinant } from "../../src/format/pent_file.ts";
+import { determinant } from "../../src/format/mesh.ts";
 import { makeBoundary } from "../../src/mesh/boundary.ts";
 import { matchFacets } from "../../src/mesh/facets.ts";
 import { orientOutward } from "../../src/mesh/orient.ts";

@@ -1,7 +1,7 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { determinant } from "../../src/format/pent_file.ts";
-import type { Mesh } from "../../src/format/pent_file.ts";
+import { determinant } from "../../src/format/mesh.ts";
+import type { Mesh } from "../../src/format/mesh.ts";
 import { makeBoundary } from "../../src/mesh/boundary.ts";
 import { makeRestCells, strains, toFloat4 } from "../../src/mesh/quantities.ts";
 import { gridMesh } from "../../src/run/example.ts";

@@ -1,15 +1,23 @@
 import assert from "node:assert/strict";
+import { execFileSync } from "node:child_process";
+import { readFileSync, writeFileSync } from "node:fs";
+import { join } from "node:path";
 import { test } from "node:test";
 import type { TestContext } from "node:test";
+import { readMesh } from "../../src/format/pent_file.ts";
+import type { MeshFile } from "../../src/format/pent_file.ts";
 import { galleryFiles } from "../../src/play/gallery.ts";
 import { writeMesh } from "../../src/format/write_pent.ts";
 import { Playground } from "../../src/play/playground.ts";
+import type { SceneFiles } from "../../src/play/protocol.ts";
 import { kGallery } from "../../src/play/scene_list.ts";
+import { Decoder } from "../../src/run/decode.ts";
 import { expectHandOf, expectStepsOf } from "../support/agreement.ts";
 import type { HandAct } from "../support/agreement.ts";
 import { native } from "../support/native.ts";
 import { pairScenes } from "../support/pair_scenes.ts";
-import { edited, library } from "../support/play.ts";
+import { edited, library, withFiles } from "../support/play.ts";
+import { lines } from "../support/two_tets.ts";
 
 const kNothingBuilt = "the simulator for browsers is not built";
 const kSteps = 30;
@@ -130,6 +138,10 @@ test("mistakes in a scene are told with line and column, and the scene that was 
     const cut = new Map(jelly).set("jelly.pent", jelly.get("jelly.pent")!.slice(0, 5000));
     assert.throws(() => play.open(cut, "scene.toml"), /^Error: scene\.toml:7:8: jelly\.pent: /);
     assert.ok(play.step(now), "the jelly is still there");
+    // With its files: it is opened again.
+    play.reset();
+    assert.equal(play.tune(2, 0.01, 60).stiffness, 2);
+    assert.ok(play.step(now));
 });
 
 test("a scene of three dimensions is refused with what shows it, and the scene that was open stays", async (t) => {
@@ -155,6 +167,85 @@ test("a scene of three dimensions is refused with what shows it, and the scene t
         /^Error: flat\.toml: the scene has dimension 3; .* alone\. Simulate it with pent-sim, and drop the run here/,
     );
     assert.ok(made.play.step(now), "the jelly is still there");
+});
+
+// A tesseract with numbers and vectors of vertices and cells beside it.
+function jellyWithFields(): SceneFiles {
+    const files = galleryFiles("jelly");
+    const { positions, cells, cellCount, vertexCount } = readMesh(
+        files.get("jelly.pent")!,
+        "jelly.pent",
+    );
+    const rows = (count: number, row: (i: number) => number[]) =>
+        Array.from({ length: count }, (_, i) => row(i).join(" "));
+    const of = (array: Float64Array | Uint32Array, size: number, i: number) => [
+        ...array.subarray(size * i, size * (i + 1)),
+    ];
+    const vectors = ["x", "y", "z", "w"].map((axis) => `property double flow_${axis}`);
+    const mesh = lines(
+        "ply",
+        "format ascii 1.0",
+        "comment pent 1.0",
+        "comment dimension 4",
+        `element vertex ${vertexCount}`,
+        ...["x", "y", "z", "w"].map((axis) => `property double ${axis}`),
+        "property double heat",
+        "property double speed",
+        ...vectors,
+        `element pentachoron ${cellCount}`,
+        ...[0, 1, 2, 3, 4].map((k) => `property uint v${k}`),
+        "property double phase",
+        "end_header",
+        ...rows(vertexCount, (v) => {
+            const p = of(positions, 4, v);
+            return [...p, 300 + p[0]! - p[3]!, 7, 1 + p[1]!, p[2]!, -2, p[0]!];
+        }),
+        ...rows(cellCount, (cell) => [...of(cells, 5, cell), cell % 17]),
+    );
+    return new Map(files).set("jelly.pent", mesh); // which is placed turned in xy and zw
+}
+
+test("quantities of a scene's mesh are those of its run, and are in what is recorded", async (t) => {
+    const made = await both(t);
+    if (!made) {
+        return;
+    }
+    const files = jellyWithFields();
+    const play = new Playground(made.held, () => {});
+    const { fields } = play.open(files, "scene.toml").bodies[0]!;
+    assert.deepEqual([...fields.keys()], ["heat", "flow", "phase"]); // speed is that of a frame
+    play.startRecording();
+    const recorded = play.stopRecording()!.get("meshes/jelly.pent")!;
+    const meshOfRun = withFiles(files, (folder) => {
+        const scene = edited(files, (text) => text.replace("[scene]\n", "[scene]\nframes = 1\n"));
+        writeFileSync(join(folder, "scene.toml"), scene.get("scene.toml")!);
+        execFileSync(made.sim, [join(folder, "scene.toml"), "-o", join(folder, "run"), "--quiet"]);
+        return new Uint8Array(readFileSync(join(folder, "run/meshes/jelly.pent")));
+    });
+    const expected = new Decoder().mesh(meshOfRun, "jelly", "jelly.pent").body.fields;
+    assert.deepEqual([...expected.keys()], [...fields.keys()]);
+    for (const [name, values] of expected) {
+        values.forEach((value, v) =>
+            // Lengths of vectors that were turned, in floats; means by volumes of cells that were.
+            assert.ok(Math.abs(fields.get(name)![v]! - value) < 1e-6 * Math.abs(value), name),
+        );
+    }
+    const [found, other] = [recorded, meshOfRun].map((bytes) => readMesh(bytes, "jelly.pent"));
+    for (const kind of ["vertexFields", "cellFields"] as const) {
+        assert.equal(found![kind].length, other![kind].length);
+        found![kind].forEach(({ name, values }, i) => {
+            assert.equal(name, other![kind][i]!.name);
+            values.forEach((value, v) =>
+                assert.ok(Math.abs(value - other![kind][i]!.values[v]!) < 1e-12, name),
+            );
+        });
+    }
+    const flowOf = (mesh: MeshFile) =>
+        mesh.vertexFields.find(({ name }) => name === "flow")!.values;
+    const before = flowOf(readMesh(files.get("jelly.pent")!, "jelly.pent"));
+    // 30 degrees in xy.
+    const expectedX = before[0]! * Math.cos(Math.PI / 6) - before[1]! / 2;
+    assert.ok(Math.abs(flowOf(found!)[0]! - expectedX) < 1e-14);
 });
 
 test("obstacles are where the scene has them, and move as they do in it", async (t) => {

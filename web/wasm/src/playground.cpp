@@ -146,6 +146,12 @@ int play_get_facts(const pent_simulation* simulation, play_facts* facts) {
     });
 }
 
+const char* play_mesh_path(const pent_simulation* simulation, int body) {
+    return with_body<const char*>(simulation, body, nullptr, [&](auto& held, Opened& /*opened*/) {
+        return held.scene().bodies[static_cast<std::size_t>(body)].mesh.c_str();
+    });
+}
+
 const double* play_contact_forces(const pent_simulation* simulation, int body) {
     static std::vector<double> forces;
     return with_body<const double*>(simulation, body, nullptr, [&](auto& held, Opened& /*opened*/) {
@@ -167,6 +173,7 @@ const char* play_obstacles(const pent_simulation* simulation) {
 int play_begin_run(const pent_simulation* simulation, const char* folder) {
     return with(simulation, -1, [&](auto& held, Opened& /*opened*/) {
         require(folder, "folder");
+        constexpr int kDim = kDimOf<std::remove_reference_t<decltype(held)>>;
         const fs::path run = folder;
         for (const char* part : {kMeshesFolder, kFramesFolder}) {
             fs::create_directories(run / part);
@@ -174,8 +181,12 @@ int play_begin_run(const pent_simulation* simulation, const char* folder) {
         const Scene& scene = held.scene();
         write_text(run / kSceneFile, runs::scene_text(as_written(scene)));
         for (int body = 0; body < held.body_count(); ++body) {
-            const std::string& name = scene.bodies[static_cast<std::size_t>(body)].name;
-            write_mesh(run / mesh_file(name), held.mesh(body), {.created_by = kCreatedBy});
+            const simulator::Body& of_scene = scene.bodies[static_cast<std::size_t>(body)];
+            auto extras = read_mesh<kDim>(of_scene.mesh).extras;
+            runs::turn<kDim>(extras.vertex_fields, of_scene.place);
+            runs::turn<kDim>(extras.cell_fields, of_scene.place);
+            write_mesh(run / mesh_file(of_scene.name), held.mesh(body), {.created_by = kCreatedBy},
+                       extras);
         }
         const bool do_move = std::any_of(scene.obstacles.begin(), scene.obstacles.end(),
                                          [](const auto& one) { return !one.motion.empty(); });

@@ -32,6 +32,9 @@ PENT_PLUGIN_API pent_simulation* play_open(const char* scene_path,
 
 PENT_PLUGIN_API int play_get_facts(const pent_simulation* simulation, play_facts* facts);
 
+/** The file of a body's mesh, as seen from the current folder; it holds until the next call. */
+PENT_PLUGIN_API const char* play_mesh_path(const pent_simulation* simulation, int body);
+
 /** Forces of contact on the vertices of a body, N, dimension x vertices; they hold until the next
  * call. */
 PENT_PLUGIN_API const double* play_contact_forces(const pent_simulation* simulation, int body);
@@ -39,7 +42,8 @@ PENT_PLUGIN_API const double* play_contact_forces(const pent_simulation* simulat
 /** Obstacles where they are now, as a run's file has them; it holds until the next call. */
 PENT_PLUGIN_API const char* play_obstacles(const pent_simulation* simulation);
 
-/** Begins a run in an empty folder, as pent-sim writes it: scene, meshes, obstacles at rest. */
+/** Begins a run in an empty folder, as pent-sim writes it: scene, meshes with what
+ * their files have beside them, obstacles at rest. */
 PENT_PLUGIN_API int play_begin_run(const pent_simulation* simulation, const char* folder);
 
 /** Adds a frame to it. */

@@ -7,7 +7,22 @@
 
 #include <Eigen/Core>
 
+#include <cmath>
+
 namespace pent::viewer {
+
+/// Length of each column of a matrix, also where squares leave the range of numbers.
+template <typename Vectors>
+[[nodiscard]] Eigen::VectorXd lengths(const Vectors& vectors) {
+    constexpr double kSmall = 1e-150;  // below, squares lose digits
+    Eigen::VectorXd lengths = vectors.colwise().norm().transpose();
+    for (Eigen::Index i = 0; i < lengths.size(); ++i) {
+        if (!(std::isfinite(lengths[i]) && lengths[i] > kSmall)) {
+            lengths[i] = vectors.col(i).stableNorm();
+        }
+    }
+    return lengths;
+}
 
 /// Length of the velocity of each vertex, m/s; zero where the frame has no velocities.
 template <int Dim>

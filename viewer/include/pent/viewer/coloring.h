@@ -7,6 +7,7 @@
 
 #include <Eigen/Core>
 
+#include <cmath>
 #include <cstddef>
 #include <string>
 #include <string_view>
@@ -52,8 +53,12 @@ struct ColorRange {
     /// The share of the way from low to high. Where both are equal it is the middle of a quantity
     /// with two sides, and the beginning of one that counts from zero.
     [[nodiscard]] double place(double value, const ColorBy& by) const {
-        const double alone = color_map_of(by) == ColorMap::Diverging ? 0.5 : 0;
-        return high > low ? (value - low) / (high - low) : alone;
+        if (!(high > low)) {
+            return color_map_of(by) == ColorMap::Diverging ? 0.5 : 0;
+        }
+        // By halves where the distance of the ends leaves the range of numbers.
+        return std::isfinite(high - low) ? (value - low) / (high - low)
+                                         : (value / 2 - low / 2) / (high / 2 - low / 2);
     }
 };
 

@@ -1,6 +1,7 @@
 import type { Hit } from "../../play/library.ts";
 import type { Moment } from "../../run/run.ts";
 import type { Vector } from "../../view/matrix.ts";
+import { roughly } from "../../view/digits.ts";
 import { fromSeen, onPlane, project, sightAt, toSeen } from "../../view/pointing.ts";
 import type { OpenedScene, PlayCalls } from "../../play/protocol.ts";
 import type { Viewer } from "../../view/viewer.ts";
@@ -175,7 +176,7 @@ export class Hand {
         this.drawing.classList.toggle("below", isAway && away < 0);
         set(this.label, { x: String(Number(x2) + 15), y: String(Number(y2) + 5) });
         this.label.textContent = isAway
-            ? `w ${away > 0 ? "+" : "\u2212"}${Math.abs(away).toFixed(2)} m`
+            ? `w ${away > 0 ? "+" : "\u2212"}${roughly(Math.abs(away), high - low)} m`
             : "";
         this.drawing.toggleAttribute("hidden", picture.tiles.length > 1);
     }

@@ -29,8 +29,8 @@ export interface PlayHost {
     messages: Messages;
     pointer: Pointer;
     tools: Tools;
-    /** Shows a run in place of the one before. */
-    open(run: Run): Promise<void>;
+    /** Shows a run in place of the one before; gives whether it does. */
+    open(run: Run): Promise<boolean>;
     /** Shows the files of a run in the viewer. */
     watch(files: RunFiles, title: string): void;
 }
@@ -156,7 +156,10 @@ export class PlayPage {
     private async show(name: string, title: string, scene: OpenedScene): Promise<void> {
         this.endHand();
         const run = new LiveRun(title, scene, kGallery[name] ?? null);
-        await this.host.open(run);
+        if (!(await this.host.open(run))) {
+            this.leave(); // the simulator has the new scene, which nobody sees
+            return;
+        }
         this.run = run;
         this.hand = new Hand(
             byId("overlay"),
