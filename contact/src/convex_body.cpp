@@ -76,6 +76,9 @@ double least_distance(const Surface<Dim>& surface,
                       double limit) {
     double least = limit;
     for (const Candidate& pair : pairs.pairs) {
+        if (static_cast<double>(pair.distance) >= least) {
+            continue;  // rounded down
+        }
         const PairAt<Dim, K, L> at(surface.template simplices<K>(), surface.template simplices<L>(),
                                    pair, positions);
         least = at.distance_below(least);
@@ -87,8 +90,8 @@ double least_distance(const Surface<Dim>& surface,
 template <int Dim>
 double gap_by_search(const Surface<Dim>& surface, const Positions<Dim>& positions, double limit) {
     const PositionsView<Dim> view(positions);
-    const CandidatePairs near = SelfProximity<Dim>(surface, positions, limit, false)
-                                    .find(Paths<Dim>{view, view}, limit, limit);
+    const CandidatePairs near =
+        SelfProximity<Dim>(surface, positions, 0, false).find(Paths<Dim>{view, view}, limit, limit);
     return least_distance<Dim, 2, Dim - 1>(
         surface, near.mixed_first, view,
         least_distance<Dim, 1, Dim>(surface, near.points_first, view, limit));

@@ -31,7 +31,8 @@ class SelfProximity {
 public:
     /// Surface and rest positions, of all vertices of the scene, must outlive this.
     ///
-    /// @param distance           That is asked for, at least, m.
+    /// @param distance           That is asked for, at least, m. 0 of who asks once: nothing is
+    ///                           listed, as there is no next time for which that would be of use.
     /// @param is_rest_left_out  Whether pairs nearer than it at rest are never contacts.
     /// @param shared            Of a team each finds the pairs of some patches.
     SelfProximity(const Surface<Dim>& surface,

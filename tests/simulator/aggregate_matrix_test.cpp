@@ -222,5 +222,36 @@ TEST(AggregatePattern, HasBatchesOfRowsThatShareNoBlock) {
     }
 }
 
+// More children than are told to kernels at a time: 4096. Nothing couples them, so that every block
+// is a sum over the members of its aggregate alone.
+TEST(GalerkinProduct, HasThePlaceOfEveryChildHoweverManyThereAre) {
+    constexpr std::uint32_t kChildren = 9001;
+    BlockPattern pattern;
+    for (std::uint32_t row = 0; row < kChildren; ++row) {
+        pattern.row_start.push_back(row);
+        pattern.columns.push_back(row);
+    }
+    pattern.row_start.push_back(kChildren);
+    color_rows(pattern, kChildren);
+    BlockMatrix<4, double> A(pattern);
+    for (std::uint32_t row = 0; row < kChildren; ++row) {
+        A.set_block(row, (1 + row % 5) * Eigen::Matrix4d::Identity());
+    }
+    const Aggregates aggregates = test::by_number(kChildren, 6);
+    const Arms<4> arms = test::random_arms(kChildren, 3);
+    const AggregatePattern blocks = make_aggregate_pattern(aggregates, pattern, nullptr);
+    const auto product =
+        galerkin_product(Workers(2), kernels<4>(best_isa()).blocks, A, aggregates, arms, blocks);
+    for (std::uint32_t a = 0; a < static_cast<std::uint32_t>(aggregates.count()); ++a) {
+        Eigen::MatrixXd expected = Eigen::MatrixXd::Zero(kModeCount, kModeCount);
+        for (const std::uint32_t child : aggregates.members(a)) {
+            const Eigen::MatrixXd P = dense_modes(test::by_number(1, 1), {arms[child]}, 4);
+            expected += (1 + child % 5) * P.transpose() * P;
+        }
+        const Eigen::MatrixXd found = product.block(blocks.diagonal[a]);
+        ASSERT_LT((found - expected).norm(), 1e-13 * expected.norm()) << a;
+    }
+}
+
 }  // namespace
 }  // namespace pent::simulator

@@ -13,6 +13,7 @@
 #include <random>
 #include <set>
 #include <span>
+#include <utility>
 
 namespace pent::simulator {
 namespace {
@@ -199,7 +200,6 @@ TEST(MakeHierarchy, GivesNearlyEveryVertexToTheNearestMiddleBesideIt) {
     EXPECT_LT(misplaced, box.pattern.rows() / 50);
 }
 
-// So that sweeps have few batches.
 // In a grid many are equally near. Instruction sets and compilers round distances in their own
 // ways, and all must make the same preconditioner of it.
 TEST(MakeHierarchy, IsTheSameWhereRoundingIsAnother) {
@@ -221,6 +221,7 @@ TEST(MakeHierarchy, IsTheSameWhereRoundingIsAnother) {
     }
 }
 
+// So that sweeps have few batches.
 TEST(MakeHierarchy, NumbersAggregatesByColor) {
     const Box box({10, 8, 6, 4}, {10, 8, 6, 4});
     const std::vector<Aggregates> levels = box.hierarchy();
@@ -257,6 +258,132 @@ TEST(MakeHierarchy, NeverJoinsWhatOnlyLiesSideBySide) {
             EXPECT_EQ(dofs.vertex_of(dof) < half, is_first);
         }
     }
+}
+
+// A wall of columns side by side, 1 m apart: each dof is linked with those above, below and beside
+// it.
+template <int Dim>
+std::vector<Aggregates> hierarchy_of_wall(std::uint32_t columns,
+                                          std::uint32_t layers,
+                                          double height_of_layer) {
+    BlockPattern pattern;
+    std::vector<std::uint32_t> column_start;
+    Positions<Dim> places = Positions<Dim>::Zero(Dim, columns * layers);
+    for (std::uint32_t row = 0; row < columns * layers; ++row) {
+        pattern.row_start.push_back(static_cast<std::int64_t>(pattern.columns.size()));
+        pattern.columns.push_back(row);
+        if (row % layers + 1 < layers) {
+            pattern.columns.push_back(row + 1);
+        }
+        if (row / layers + 1 < columns) {
+            pattern.columns.push_back(row + layers);
+        }
+        if (row % layers == 0) {
+            column_start.push_back(row);
+        }
+        places(0, row) = row / layers;
+        places(Dim - 1, row) = height_of_layer * (row % layers);
+    }
+    pattern.row_start.push_back(static_cast<std::int64_t>(pattern.columns.size()));
+    column_start.push_back(columns * layers);
+    return make_hierarchy<Dim>(pattern, column_start, places);
+}
+
+template <int Dim>
+std::vector<std::uint32_t> pieces_of_wall(std::uint32_t columns,
+                                          std::uint32_t layers,
+                                          double height_of_layer) {
+    const Aggregates level = hierarchy_of_wall<Dim>(columns, layers, height_of_layer)[0];
+    std::vector<std::uint32_t> first(number_of(level), columns * layers);
+    std::vector<std::uint32_t> pieces;  // by their first dofs
+    for (std::uint32_t row = 0; row < columns * layers; ++row) {
+        std::uint32_t& of = first[level.of_child()[row]];
+        of = std::min(of, row);
+        pieces.push_back(of);
+    }
+    return pieces;
+}
+
+// Bricks of so many columns and layers.
+std::vector<std::uint32_t> bricks(std::uint32_t columns,
+                                  std::uint32_t layers,
+                                  std::uint32_t wide,
+                                  std::uint32_t high) {
+    std::vector<std::uint32_t> pieces;
+    for (std::uint32_t row = 0; row < columns * layers; ++row) {
+        const std::uint32_t column = row / layers / wide * wide;
+        const std::uint32_t layer = row % layers / high * high;
+        pieces.push_back(column * layers + layer);
+    }
+    return pieces;
+}
+
+// By hand. Parts of columns of cubes are to be 1.9 w high where they are w wide, w^Dim being 29 /
+// 1.9: 4.7 layers in 3D and 3.8 in 4D. A column of 12 has 2.5 or 3.2 of them, which is three, so
+// that 7 or 8 columns have 29 dofs in each; one of 3 is less than a part, and ten columns have that
+// many.
+TEST(MakeHierarchy, BuildsAWallOfBricksWhoseSizesAreKnown) {
+    EXPECT_EQ(pieces_of_wall<3>(21, 12, 1), bricks(21, 12, 7, 4));
+    EXPECT_EQ(pieces_of_wall<4>(24, 12, 1), bricks(24, 12, 8, 4));
+    EXPECT_EQ(pieces_of_wall<3>(40, 3, 1), bricks(40, 3, 10, 3));
+    EXPECT_EQ(pieces_of_wall<4>(40, 3, 1), bricks(40, 3, 10, 3));
+}
+
+// Layers of a quarter count a quarter, but a column no less than the side of a cube of 29: 3.1 dofs
+// in 3D and 2.3 in 4D, where twelve layers weigh 3.
+TEST(MakeHierarchy, WeighsThinLayersByTheirHeight) {
+    EXPECT_EQ(pieces_of_wall<3>(30, 12, 0.25), bricks(30, 12, 10, 12));
+    EXPECT_EQ(pieces_of_wall<4>(30, 12, 0.25), bricks(30, 12, 10, 12));
+    EXPECT_EQ(pieces_of_wall<3>(30, 12, 1e-3), bricks(30, 12, 10, 12));
+    EXPECT_EQ(pieces_of_wall<4>(26, 12, 1e-3), bricks(26, 12, 13, 12));
+}
+
+// Bricks of 7 columns, three above one another.
+TEST(MakeHierarchy, EndsAtTheCoarsestThatIsAllowed) {
+    static_assert(kCoarsestAggregates == 3 * 8);
+    EXPECT_EQ(hierarchy_of_wall<3>(7 * 8, 12, 1).size(), 1U);
+    EXPECT_EQ(hierarchy_of_wall<3>(7 * 9, 12, 1).size(), 2U);
+}
+
+// However many vertices are in each: nearer to their own middle, that of all vertices, than to
+// those beside it, but where a last round left something to move.
+TEST(MakeHierarchy, GivesNearlyEveryAggregateToTheNearestMiddleBesideIt) {
+    const Box box({20, 10, 8, 2}, {20, 10, 8, 2});
+    const std::vector<Aggregates> levels = box.hierarchy();
+    ASSERT_EQ(levels.size(), 3U);
+    const auto middles_of = [&](std::size_t level) {
+        Positions<4> middles = Positions<4>::Zero(4, levels[level].count());
+        Eigen::VectorXd counts = Eigen::VectorXd::Zero(middles.cols());
+        for (std::uint32_t dof = 0; dof < box.rest.cols(); ++dof) {
+            std::uint32_t a = dof;
+            for (std::size_t l = 0; l <= level; ++l) {
+                a = levels[l].of_child()[a];
+            }
+            middles.col(a) += box.rest.col(dof);
+            ++counts[a];
+        }
+        return Positions<4>(middles * counts.cwiseInverse().asDiagonal());
+    };
+    const Positions<4> own = middles_of(0);
+    const Positions<4> next = middles_of(1);
+    const Aggregates& parts = levels[0];
+    const Aggregates& all = levels[1];
+    std::set<std::uint32_t> misplaced;
+    for (std::uint32_t row = 0; row < box.pattern.rows(); ++row) {
+        for (std::int64_t k = box.pattern.row_start[row]; k < box.pattern.row_start[row + 1]; ++k) {
+            const std::uint32_t column = box.pattern.columns[static_cast<std::size_t>(k)];
+            for (const auto& [a, b] : {std::pair(row, column), std::pair(column, row)}) {
+                const std::uint32_t part = parts.of_child()[a];
+                const auto distance = [&](std::uint32_t of) {
+                    return (own.col(part) - next.col(all.of_child()[of])).norm();
+                };
+                if (distance(parts.of_child()[b]) < 0.9 * distance(part)) {
+                    misplaced.insert(part);
+                }
+            }
+        }
+    }
+    EXPECT_LE(misplaced.size(), static_cast<std::size_t>(own.cols()) / 50);
 }
 
 TEST(MakeHierarchy, LeavesAloneWhatHasNoLinksAndEndsThere) {

@@ -96,6 +96,46 @@ TYPED_TEST(AttachmentMotion, HasForcesWithoutDampingBetweenSteps) {
     }
 }
 
+// A damper knows how fast its anchor goes: as fast where one motion goes on with another as in one
+// motion, and nothing of one that begins where the step ends.
+TYPED_TEST(AttachmentMotion, OfWhichOneGoesOnWithTheOtherIsThatOfBothInOne) {
+    constexpr int kDim = TypeParam::value;
+    for (const Integrator integrator : kWithInertia) {
+        Scene scene = test::box_scene<kDim>();
+        scene.frames_per_second = 30;
+        scene.solver.integrator = integrator;
+        solve_tightly(scene);
+        Attachment tie;
+        tie.body = "box";
+        tie.select = {EverythingSelection{}};
+        tie.stiffness = 50;
+        tie.damping = 20;
+        Motion pull = still(kDim);
+        pull.translate = Eigen::VectorXd::LinSpaced(kDim, 0.7, -0.4);
+        pull.from = 2 / 30.0;
+        tie.motion = {pull};
+        scene.attachments = {tie};
+        Simulation<kDim> whole(scene, {cube<kDim>(1)});
+        std::vector<Motion>& parts = scene.attachments[0].motion;
+        parts.clear();
+        for (int i = 2; i < 20; i += 3) {
+            pull.from = i / 30.0;
+            pull.to = (i + 3) / 30.0;
+            parts.push_back(pull);
+        }
+        Simulation<kDim> in_parts(scene, {cube<kDim>(1)});
+        const Positions<kDim> start = whole.positions(0);
+        for (int i = 0; i < 20; ++i) {
+            ASSERT_TRUE(whole.step().is_accepted);
+            ASSERT_TRUE(in_parts.step().is_accepted);
+            // Of rounded sums of the motions, and of the tolerance of the solver.
+            EXPECT_LT((whole.positions(0) - in_parts.positions(0)).cwiseAbs().maxCoeff(), 1e-10)
+                << i;
+            EXPECT_EQ(whole.positions(0) == start, i < 2) << i;
+        }
+    }
+}
+
 // Two masses on springs of N k in all: x = v / omega e^(-gamma t) sin(omega t) with
 // omega_0^2 = N k / mu, mu = m1 m2 / (m1 + m2), gamma = N c / (2 mu), omega^2 = omega_0^2 -
 // gamma^2.

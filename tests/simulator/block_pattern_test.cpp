@@ -107,5 +107,44 @@ TEST(BlockPattern, OfListsHasThePairsOfTheirElements) {
     }
 }
 
+// Rows that are coupled with nothing.
+BlockPattern diagonal_pattern(std::int64_t rows) {
+    BlockPattern pattern;
+    pattern.row_start.resize(static_cast<std::size_t>(rows) + 1);
+    std::iota(pattern.row_start.begin(), pattern.row_start.end(), 0);
+    pattern.columns.resize(static_cast<std::size_t>(rows));
+    std::iota(pattern.columns.begin(), pattern.columns.end(), 0U);
+    return pattern;
+}
+
+TEST(BlockPattern, HasChunksForItsLastRowAndNoneBehindIt) {
+    constexpr std::int64_t kChunk = BlockPattern::kChunkRows;
+    for (const std::int64_t rows :
+         {std::int64_t{0}, std::int64_t{1}, kChunk - 1, kChunk, kChunk + 1, 2 * kChunk}) {
+        BlockPattern pattern = diagonal_pattern(rows);
+        color_rows(pattern, rows);
+        EXPECT_GE(pattern.chunks * kChunk, rows);
+        EXPECT_LT((pattern.chunks - 1) * kChunk, rows);
+        std::size_t colored = 0;
+        for (const std::vector<int>& color : pattern.coloring.colors) {
+            colored += color.size();
+        }
+        EXPECT_EQ(colored, static_cast<std::size_t>(pattern.chunks));
+    }
+}
+
+// Rows 0 to 2 and columns up to 8; by the second part, too.
+TEST(BlockPattern, HasTheColumnsWithoutRowsOnceEachAndIncreasing) {
+    BlockPattern pattern;
+    pattern.row_start = {0, 3, 6, 7};
+    pattern.columns = {0, 2, 7, 1, 4, 7, 2};
+    BlockPattern coupling;
+    coupling.row_start = {0, 2, 3, 5};
+    coupling.columns = {0, 8, 1, 2, 4};
+    EXPECT_EQ(ghost_columns(pattern), (std::vector<std::uint32_t>{4, 7}));
+    EXPECT_EQ(ghost_columns(pattern, &coupling), (std::vector<std::uint32_t>{4, 7, 8}));
+    EXPECT_TRUE(ghost_columns(diagonal_pattern(3)).empty());
+}
+
 }  // namespace
 }  // namespace pent::simulator

@@ -2,6 +2,7 @@
 
 #include <Eigen/Cholesky>
 
+#include <limits>
 #include <numeric>
 
 namespace pent::simulator {
@@ -79,6 +80,52 @@ TEST(ColumnJacobi, TakesAColumnThatIsNotPositiveDefiniteApart) {
         const BlockVector<4> expected = solved(A, cut, f.r, isa).leftCols(solved_for);
         // Factors are kept in float.
         EXPECT_LT((z - expected).norm(), 1e-6 * expected.norm()) << isa_name(isa);
+    }
+}
+
+// One column of two dofs among single ones: it is found wherever it is.
+TEST(ColumnJacobi, SolvesForAPairAmongSingleVertices) {
+    const Fixture f;
+    const Eigen::MatrixXd whole = ElasticBox<4>::dense(f.A);
+    const auto n = static_cast<std::uint32_t>(f.A.rows());
+    for (std::uint32_t pair = 0; pair + 1 < n; ++pair) {
+        std::vector<std::uint32_t> columns;
+        for (std::uint32_t dof = 0; dof <= n; ++dof) {
+            if (dof != pair + 1) {
+                columns.push_back(dof);
+            }
+        }
+        const BlockVector<4> z = solved(f.A, columns, f.r, Isa::Baseline);
+        const Eigen::VectorXd expected =
+            whole.block<8, 8>(4 * pair, 4 * pair).llt().solve(f.r.middleCols<2>(pair).reshaped());
+        // Factors are kept in float.
+        EXPECT_LT((z.middleCols<2>(pair).reshaped() - expected).norm(), 1e-5 * expected.norm());
+    }
+}
+
+// A diagonal block that is no better alone: what it is given is left to it, and the columns on both
+// sides are solved for as ever.
+TEST(ColumnJacobi, LeavesAVertexWhoseBlockIsNotPositiveDefiniteAsItIs) {
+    const Fixture f;
+    const auto n = static_cast<std::uint32_t>(f.A.rows());
+    const std::vector<std::uint32_t> columns = {0, 4, 8, 12, n};
+    const std::vector<std::uint32_t> cut = {0, 4, 5, 6, 7, 8, 12, n};
+    const BlockVector<4> expected = solved(f.A, cut, f.r, Isa::Baseline);
+    BlockMatrix<4, double> A = f.A;
+    for (const double value : {-1.0, std::numeric_limits<double>::quiet_NaN()}) {
+        A.set_block(A.diagonal_of(5), value * Eigen::Matrix4d::Identity());
+        for (const Isa isa : test::supported_isas()) {
+            const BlockVector<4> z = solved(A, columns, f.r, isa);
+            EXPECT_EQ(z.col(5), f.r.col(5));
+            for (std::uint32_t dof = 0; dof < n; ++dof) {
+                if (dof != 5) {
+                    // Factors are kept in float.
+                    EXPECT_LT((z.col(dof) - expected.col(dof)).norm(),
+                              1e-5 * expected.col(dof).norm())
+                        << isa_name(isa) << ", " << dof;
+                }
+            }
+        }
     }
 }
 

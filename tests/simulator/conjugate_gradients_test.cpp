@@ -190,5 +190,73 @@ TEST(ConjugateGradients, GiveZeroForZeroWithoutIterating) {
     EXPECT_EQ(x.norm(), 0);
 }
 
+// What is left after so many iterations with nothing else to do.
+double left_after(const Problem& problem,
+                  const BlockMatrix<4, double>& A,
+                  const Preconditioner<4>& preconditioner,
+                  int iterations) {
+    return solve(problem, A, preconditioner, {.tolerance = 1e-12, .max_iterations = iterations})
+        .report.residual;
+}
+
+// At the first iteration from which the mean rate so far needs more than as many again, and not
+// where the rest is shorter: all from runs that were cut off there.
+TEST(ConjugateGradients, EndWhereAnythingElseWouldTakeLess) {
+    const Problem problem;
+    const BlockMatrix<4, double> A = definite_matrix<double>(problem.box, 0.01);
+    const auto preconditioner = columns_of(problem, A);
+    const Workers workers(1);
+    ConjugateGradients<4> iteration(workers, kernels<4>(best_isa()).blocks);
+    const LinearSolution<4> whole = solve(problem, A, *preconditioner, {.tolerance = 1e-10});
+    ASSERT_GT(whole.report.iterations, 24);
+    int ended = 0;
+    for (const double worth : {2.0, 8.0, 10.5, 16.0, 0.75 * whole.report.iterations, 1e9}) {
+        int asked = 0;
+        const LinearSolution<4> found = iteration.solve(
+            A, *preconditioner, problem.b, {.tolerance = 1e-10}, problem.guess, {}, [&] {
+                ++asked;
+                return worth;
+            });
+        EXPECT_EQ(asked, 1);
+        const auto is_over_at = [&](int spent) {
+            const double left = left_after(problem, A, *preconditioner, spent);
+            return spent >= std::max(worth, 8.0)
+                   && std::log(left / 0.95e-10) > worth * -std::log(left) / spent;
+        };
+        int expected = 1;
+        while (expected < whole.report.iterations && !is_over_at(expected)) {
+            ++expected;
+        }
+        EXPECT_EQ(found.report.iterations, expected) << worth;
+        EXPECT_EQ(found.report.is_slow, expected < whole.report.iterations) << worth;
+        EXPECT_EQ(found.report.has_converged, !found.report.is_slow);
+        const Eigen::VectorXd left =
+            problem.b.reshaped() - ElasticBox<4>::dense(A) * found.x.reshaped();
+        EXPECT_NEAR(found.report.residual, left.norm() / problem.b.norm(),
+                    1e-9 * found.report.residual + 1e-14);
+        ended += found.report.is_slow ? 1 : 0;
+        if (!found.report.is_slow) {
+            EXPECT_EQ(found.x, whole.x);
+        }
+    }
+    EXPECT_GE(ended, 3);
+    EXPECT_LT(ended, 6);
+}
+
+// Nor is anything asked for by what takes few iterations.
+TEST(ConjugateGradients, ThinkOfNothingElseWhereTheyAreFewAnyway) {
+    const Problem problem;
+    const BlockMatrix<4, double> A = definite_matrix<double>(problem.box, 1e6);
+    const auto preconditioner = columns_of(problem, A);
+    const Workers workers(1);
+    const LinearSolution<4> found =
+        ConjugateGradients<4>(workers, kernels<4>(best_isa()).blocks)
+            .solve(A, *preconditioner, problem.b, {.tolerance = 1e-4}, problem.guess, {}, [] {
+                ADD_FAILURE();
+                return 0.0;
+            });
+    EXPECT_TRUE(found.report.has_converged);
+}
+
 }  // namespace
 }  // namespace pent::simulator

@@ -74,5 +74,52 @@ TEST(DofMap, KeepsNeighborsCloseInAShuffledBar) {
     EXPECT_LE(widest, 12U);
 }
 
+// Cells, columns and what is held drawn at random: what hangs together with what does not matter.
+TEST(DofMap, NumbersEveryFreeVertexOnceInColumnsThatAreNotEmptyWhateverIsHeld) {
+    std::mt19937 random(7);
+    const auto below = [&](std::uint32_t most) {
+        return std::uniform_int_distribution<std::uint32_t>(0, most - 1)(random);
+    };
+    for (int round = 0; round < 300; ++round) {
+        const std::uint32_t vertices = 8 + below(20);
+        const std::uint32_t count = 1 + below(vertices);
+        Columns columns;
+        std::vector<bool> is_held;
+        for (std::uint32_t v = 0; v < vertices; ++v) {
+            columns.columns.push_back(v < count ? v : below(count));
+            columns.layers.push_back(below(5));
+            is_held.push_back(below(2) == 0);
+        }
+        Simplices<4> cells(4, 1 + below(8));
+        cells = cells.unaryExpr([&](std::uint32_t) { return below(vertices); });
+        const DofMap dofs = number_dofs<3>(cells, is_held, columns);
+        std::vector<std::uint32_t> expected;
+        for (std::uint32_t v = 0; v < vertices; ++v) {
+            EXPECT_EQ(dofs.has_dof(v), !is_held[v]);
+            if (!is_held[v]) {
+                expected.push_back(v);
+            }
+        }
+        std::vector<std::uint32_t> found = dofs.vertices();
+        std::sort(found.begin(), found.end());
+        ASSERT_EQ(found, expected);
+        const std::vector<std::uint32_t>& start = dofs.column_start();
+        EXPECT_EQ(start.front(), 0U);
+        EXPECT_EQ(start.back(), dofs.count());
+        std::vector<bool> is_seen(count, false);
+        for (std::size_t c = 0; c + 1 < start.size(); ++c) {
+            ASSERT_LT(start[c], start[c + 1]);
+            const std::uint32_t column = columns.columns[dofs.vertex_of(start[c])];
+            EXPECT_FALSE(is_seen[column]);
+            is_seen[column] = true;
+            for (std::uint32_t dof = start[c] + 1; dof < start[c + 1]; ++dof) {
+                EXPECT_EQ(columns.columns[dofs.vertex_of(dof)], column);
+                EXPECT_GE(columns.layers[dofs.vertex_of(dof)],
+                          columns.layers[dofs.vertex_of(dof - 1)]);
+            }
+        }
+    }
+}
+
 }  // namespace
 }  // namespace pent::simulator

@@ -155,5 +155,48 @@ TEST(Elimination, FillsFarLessThanTheBandOfABox) {
     expect_costs(in_order);
 }
 
+// A ladder numbered from end to end is best left so; numbered at random it is cut.
+TEST(Elimination, KeepsTheOrderOfALadderAndCutsWhatHasNone) {
+    constexpr std::uint32_t kWide = 4;
+    constexpr std::uint32_t kCount = 100 * kWide;
+    std::vector<std::uint32_t> number(kCount);
+    std::iota(number.begin(), number.end(), 0U);
+    for (const bool is_in_order : {true, false}) {
+        if (!is_in_order) {
+            std::shuffle(number.begin(), number.end(), std::mt19937(1));
+        }
+        std::vector<std::vector<std::uint32_t>> linked(kCount);
+        const auto link = [&](std::uint32_t i, std::uint32_t j) {
+            linked[number[i]].push_back(number[j]);
+            linked[number[j]].push_back(number[i]);
+        };
+        Eigen::MatrixXd places(3, kCount);
+        for (std::uint32_t i = 0; i < kCount; ++i) {
+            places.col(number[i]) = Eigen::Vector3d(i / kWide, i % kWide, 0);
+            if (i >= kWide) {
+                link(i, i - kWide);
+            }
+            if (i % kWide > 0) {
+                link(i, i - 1);
+            }
+        }
+        Links links;
+        for (std::vector<std::uint32_t>& of_node : linked) {
+            std::sort(of_node.begin(), of_node.end());
+            links.targets.insert(links.targets.end(), of_node.begin(), of_node.end());
+            links.start.push_back(static_cast<std::int64_t>(links.targets.size()));
+        }
+        std::vector<std::uint32_t> as_numbered(kCount);
+        std::iota(as_numbered.begin(), as_numbered.end(), 0U);
+        const Elimination chosen = eliminate(links, places);
+        const Elimination plain = eliminate(links, as_numbered);
+        expect_room_for_the_factor(links, chosen);
+        expect_costs(chosen);
+        EXPECT_EQ(chosen.order == plain.order, is_in_order);
+        EXPECT_EQ(chosen.products == plain.products, is_in_order);
+        EXPECT_LE(chosen.products, plain.products);
+    }
+}
+
 }  // namespace
 }  // namespace pent::simulator

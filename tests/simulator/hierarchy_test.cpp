@@ -1,12 +1,18 @@
 #include "linear/hierarchy.h"
 
+#include "aggregate_levels.h"
+#include "cut_matrix.h"
+#include "elastic_box.h"
 #include "support/kuhn_box.h"
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cstdint>
+#include <memory>
 #include <set>
 #include <utility>
+#include <vector>
 
 namespace pent::simulator {
 namespace {
@@ -70,6 +76,64 @@ TEST(HierarchyTest, LinksAggregatesWhoseChildrenAreLinkedOnEveryLevel) {
         EXPECT_EQ(links_of(level.pattern), links);
         EXPECT_EQ(level.exchange, nullptr);
         EXPECT_TRUE(level.ghosts.columns.empty());
+    }
+}
+
+// Aggregates that children of other ranks are in: what each rank calls a ghost is one of its
+// owner's own, each once, on every level.
+TEST(HierarchyTest, KnowsTheAggregatesOfOtherRanksByTheirOwnersNumbers) {
+    constexpr int kRanks = 3;
+    const test::ElasticBox<4> box(pent::test::kuhn_box<4>({3, 2, 2, 2}, {1, 1, 1, 1}),
+                                  {.lame = {.lambda = 2, .mu = 1}}, ElementKind::Linear);
+    const BlockMatrix<4, double> A(box.pattern);
+    std::vector<std::uint32_t> owners;
+    for (std::uint32_t dof = 0; dof < A.rows(); ++dof) {
+        owners.push_back(dof * dof % 7 % kRanks);
+    }
+    std::array<std::vector<std::vector<std::uint32_t>>, kRanks> of_child;  // on each level
+    std::array<std::vector<Ghosts>, kRanks> children;
+    std::array<std::vector<Ghosts>, kRanks> ghosts;
+    std::array<std::vector<int>, kRanks> counts;
+    test::on_ranks(kRanks, [&](const std::shared_ptr<const Ranks>& ranks) {
+        const auto rank = static_cast<std::size_t>(ranks->rank());
+        const test::CutMatrix cut(A, owners, ranks);
+        const Aggregates fine = test::by_number(static_cast<std::uint32_t>(cut.A->rows()), 4);
+        const Aggregates coarse = test::by_number(static_cast<std::uint32_t>(fine.count()), 3);
+        const Hierarchy hierarchy({fine, coarse}, cut.pattern, nullptr,
+                                  {&cut.sharing, cut.exchange.get()}, cut.ghosts);
+        EXPECT_NE(hierarchy.levels[0].exchange, nullptr);
+        EXPECT_EQ(hierarchy.levels[1].exchange, nullptr);
+        children[rank] = {cut.ghosts, hierarchy.levels[0].ghosts};
+        for (const HierarchyLevel& level : hierarchy.levels) {
+            of_child[rank].push_back(level.aggregates.of_child());
+            ghosts[rank].push_back(level.ghosts);
+            counts[rank].push_back(level.aggregates.count());
+            EXPECT_EQ(level.aggregates.ghosts(), level.ghosts.columns.size());
+        }
+    });
+    for (std::size_t rank = 0; rank < kRanks; ++rank) {
+        for (std::size_t l = 0; l < 2; ++l) {
+            const auto own = static_cast<std::uint32_t>(counts[rank][l]);
+            const Ghosts& named = ghosts[rank][l];
+            EXPECT_EQ(named.own_columns, own);
+            std::set<std::pair<std::uint32_t, std::uint32_t>> homes;
+            for (std::size_t i = 0; i < named.columns.size(); ++i) {
+                EXPECT_EQ(named.columns[i], own + i);
+                EXPECT_NE(named.owners[i], rank);
+                EXPECT_TRUE(homes.emplace(named.owners[i], named.places[i]).second);
+            }
+            const Ghosts& below = children[rank][l];
+            ASSERT_FALSE(below.columns.empty());
+            std::set<std::uint32_t> used;
+            for (std::size_t i = 0; i < below.columns.size(); ++i) {
+                const std::uint32_t ghost = of_child[rank][l][below.columns[i]] - own;
+                ASSERT_LT(ghost, named.columns.size());
+                used.insert(ghost);
+                EXPECT_EQ(named.owners[ghost], below.owners[i]);
+                EXPECT_EQ(named.places[ghost], of_child[below.owners[i]][l][below.places[i]]);
+            }
+            EXPECT_EQ(used.size(), named.columns.size());
+        }
     }
 }
 

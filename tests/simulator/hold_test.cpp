@@ -115,6 +115,46 @@ TYPED_TEST(Hold, LetsGoWithTheVelocityOfItsMotion) {
     EXPECT_NEAR(simulation.positions(0)(0, 0) - start, 2, 1e-6);
 }
 
+// At the end of a step their velocity is that of the step: also where one motion follows another,
+// or waits to begin, and for what is let go where the next one would begin.
+TYPED_TEST(Hold, HasTheVelocityOfTheStepFromOneMotionToTheNext) {
+    constexpr int kDim = TypeParam::value;
+    for (const Integrator integrator : kWithInertia) {
+        Scene scene = test::box_scene<kDim>();
+        scene.frames_per_second = 30;
+        scene.solver.integrator = integrator;
+        Constraint carry = left<kDim>(0, 20. / 30);
+        carry.select = {EverythingSelection{}};
+        carry.motion.clear();
+        for (int i = 1; i < 20; i += 3) {  // there for three steps, and a step on, and so on
+            Motion motion = still(kDim);
+            motion.translate[i % kDim] = i;
+            motion.from = i / 30.0;
+            motion.to = (i + 3) / 30.0;
+            carry.motion.push_back(motion);
+        }
+        carry.motion.back().to = 20. / 30;
+        Motion next = still(kDim);
+        next.translate[0] = -5;
+        next.from = 20. / 30;
+        carry.motion.push_back(next);
+        scene.constraints = {carry};
+        Simulation<kDim> simulation(scene, {cube<kDim>(1)});
+        for (int i = 0; i < 25; ++i) {
+            const Positions<kDim> before = simulation.positions(0);
+            ASSERT_TRUE(simulation.step().is_accepted);
+            const Positions<kDim> moved = simulation.positions(0) - before;
+            // Rounding of places below 4 m over a step; the tolerance of the solver once it flies.
+            EXPECT_LT((30 * moved - simulation.velocities(0)).cwiseAbs().maxCoeff(),
+                      i < 20 ? 1e-12 : 1e-6)
+                << i;
+            if (i >= 20) {
+                EXPECT_NEAR(simulation.velocities(0)(19 % kDim, 0), 19, 1e-6) << i;
+            }
+        }
+    }
+}
+
 // A motion goes on from where the vertices are, however late it is asked for.
 TYPED_TEST(Hold, BeginsItsMotionNoSoonerThanItself) {
     constexpr int kDim = TypeParam::value;

@@ -1,7 +1,13 @@
+#include "linear/conjugate_gradients.h"
 #include "linear/linear_solver.h"
 #include "springy_box.h"
 
 #include <gtest/gtest.h>
+
+#include <numeric>
+#include <set>
+#include <utility>
+#include <vector>
 
 namespace pent::simulator {
 namespace {
@@ -55,6 +61,75 @@ TEST(IterativeSolver, GivesTheSameBitsTwice) {
     const auto solver = problem.iterative(PreconditionerKind::RigidModes);
     const LinearSolution<kDim> first = problem.solve(*solver, 1e-5);
     EXPECT_EQ(problem.solve(*solver, 1e-5).x, first.x);
+}
+
+// Two vertices to a column, which are not those of the mesh.
+std::vector<std::uint32_t> pairs(std::uint32_t rows) {
+    std::vector<std::uint32_t> start;
+    for (std::uint32_t row = 0; row < rows; row += 2) {
+        start.push_back(row);
+    }
+    start.push_back(rows);
+    return start;
+}
+
+// The preconditioner that a kind stands for, put together by hand, for all blocks that there are:
+// the spring couples corners that share no cell.
+template <typename Scalar>
+LinearSolution<kDim> by_hand(const SpringyBox& problem,
+                             PreconditionerKind kind,
+                             std::uint32_t rows,
+                             const BlockVector<kDim>& positions,
+                             const LinearSolveOptions& options) {
+    const auto& A = std::get<BlockMatrix<kDim, Scalar>>(problem.system.matrix());
+    const BlockKernels& blocks = kernels<kDim>(best_isa()).blocks;
+    const std::vector<std::uint32_t> columns = pairs(rows);
+    std::vector<std::uint32_t> single(rows + std::size_t{1});
+    std::iota(single.begin(), single.end(), 0U);
+    const Hierarchy hierarchy(
+        make_hierarchy<kDim>(A.pattern(), columns,
+                             at_dofs<kDim>(problem.box.dofs, problem.box.mesh.positions)),
+        A.pattern(), &A.coupling()->pattern());
+    std::unique_ptr<Preconditioner<kDim>> preconditioner = column_jacobi(
+        problem.workers, blocks, A, kind == PreconditionerKind::BlockJacobi ? single : columns);
+    if (kind == PreconditionerKind::RigidModes) {
+        preconditioner =
+            multilevel(problem.workers, blocks, A, hierarchy, positions, std::move(preconditioner));
+    }
+    return ConjugateGradients<kDim>(problem.workers, blocks)
+        .solve(A, *preconditioner, problem.system.right(), options,
+               BlockVector<kDim>::Zero(kDim, rows));
+}
+
+TEST(IterativeSolver, HasThePreconditionerThatItIsAskedForOfAllBlocks) {
+    for (const Precision precision : {Precision::Float, Precision::Double}) {
+        const SpringyBox problem(precision);
+        const std::uint32_t rows = problem.box.dofs.count();
+        const BlockVector<kDim> positions = at_dofs<kDim>(problem.box.dofs, problem.box.positions);
+        const LinearSolveOptions options{.tolerance = 1e-5};
+        std::set<int> iterations;
+        for (const PreconditionerKind kind :
+             {PreconditionerKind::BlockJacobi, PreconditionerKind::ColumnJacobi,
+              PreconditionerKind::RigidModes}) {
+            const auto solver = make_iterative_solver<kDim>(
+                problem.workers, kernels<kDim>(best_isa()).blocks, kind,
+                {.column_start = pairs(rows),
+                 .rest = at_dofs<kDim>(problem.box.dofs, problem.box.mesh.positions)});
+            const LinearSolution<kDim> expected =
+                precision == Precision::Float
+                    ? by_hand<float>(problem, kind, rows, positions, options)
+                    : by_hand<double>(problem, kind, rows, positions, options);
+            // The second time with what is left of the first.
+            for (int time = 0; time < 2; ++time) {
+                const LinearSolution<kDim> found = solver->solve(
+                    problem.system, positions, options, BlockVector<kDim>::Zero(kDim, rows));
+                EXPECT_EQ(found.report.iterations, expected.report.iterations);
+                EXPECT_EQ(found.x, expected.x);
+            }
+            iterations.insert(expected.report.iterations);
+        }
+        EXPECT_EQ(iterations.size(), 3U);  // so that none is taken for another
+    }
 }
 
 }  // namespace

@@ -100,7 +100,7 @@ TEST(LinearSolvers, AreRightInDoubleWhereFloatsLoseTheMassesAndTheSystemSaysSo) 
                 problem.workers, kernels<kDim>(best_isa()).blocks, kind,
                 {.column_start = problem.box.dofs.column_start(), .rest = rest}));
         }
-        solvers.push_back(make_direct_solver<kDim>(rest));
+        solvers.push_back(make_direct_solver<kDim>(kernels<kDim>(best_isa()).blocks, rest));
         for (const auto& solver : solvers) {
             const double error = problem.error_of(*solver);
             EXPECT_TRUE(is_float ? !(error < 0.1) : error < 1e-5) << error;

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <limits>
+
 namespace pent::simulator {
 namespace {
 
@@ -56,6 +58,20 @@ TEST(CheckMaterial, WantsPositiveShearBulkAndDensity) {
     EXPECT_THROW(check(Material{.lame = {.lambda = -0.5, .mu = 1}}, 4), Error);
     EXPECT_THROW(check(Material{.lame = {.lambda = 1, .mu = 0}}, 4), Error);
     EXPECT_THROW(check(Material{.lame = {.lambda = 1, .mu = 1}, .density = 0}, 4), Error);
+}
+
+// To be told from numbers that are merely large.
+TEST(CheckMaterial, WantsFiniteNumbersAlone) {
+    for (const double wrong :
+         {std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity(),
+          std::numeric_limits<double>::quiet_NaN()}) {
+        EXPECT_THROW(check(Material{.lame = {.lambda = 1, .mu = wrong}, .density = 1}, 4), Error);
+        EXPECT_THROW(check(Material{.lame = {.lambda = wrong, .mu = 1}, .density = 1}, 4), Error);
+        EXPECT_THROW(check(Material{.lame = {.lambda = 1, .mu = 1}, .density = wrong}, 4), Error);
+        EXPECT_THROW(static_cast<void>(lame_from_young(4, wrong, 0.2)), Error);
+        EXPECT_THROW(static_cast<void>(lame_from_young(4, 1, wrong)), Error);
+    }
+    EXPECT_NO_THROW(check(Material{.lame = {.lambda = 1e300, .mu = 1e300}, .density = 1e300}, 4));
 }
 
 }  // namespace

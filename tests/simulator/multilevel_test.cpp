@@ -3,6 +3,8 @@
 
 #include <Eigen/Cholesky>
 
+#include <cmath>
+
 namespace pent::simulator {
 namespace {
 
@@ -118,6 +120,29 @@ TEST(Multilevel, ReturnsWhatItIsGivenTimesWhatItMakesOfIt) {
             multilevel_of(f, hierarchy, positions_of(f), f.workers)->apply(f.workers, f.r, z);
         EXPECT_NEAR(product, f.r.cwiseProduct(z).sum(), 1e-12 * f.r.norm() * z.norm());
     }
+}
+
+// Forces of any size, though levels below the first are in float: a power of two changes no bit.
+TEST(Multilevel, IsAsExactHoweverSmallForcesAreAndGivesZeroForZero) {
+    const Fixture f;
+    BlockMatrix<4, float> A(f.A.pattern());
+    A.add_scaled(f.workers, 1, f.A);
+    const Hierarchy hierarchy = three_levels(f, 3);
+    const BlockKernels& blocks = kernels<4>(Isa::Baseline).blocks;
+    const auto preconditioner =
+        multilevel(f.workers, blocks, A, hierarchy, positions_of(f),
+                   column_jacobi(f.workers, blocks, A, f.box.dofs.column_start()));
+    BlockVector<4> expected(4, A.rows());
+    const double product = preconditioner->apply(f.workers, f.r, expected);
+    for (const int power : {-300, -130, -10, 10, 130, 300}) {
+        const double factor = std::ldexp(1.0, power);
+        BlockVector<4> z(4, A.rows());
+        EXPECT_EQ(preconditioner->apply(f.workers, factor * f.r, z), factor * factor * product);
+        EXPECT_EQ(z, factor * expected) << power;
+    }
+    BlockVector<4> z(4, A.rows());
+    EXPECT_EQ(preconditioner->apply(f.workers, 0 * f.r, z), 0);
+    EXPECT_TRUE(z.isZero(0));
 }
 
 TEST(Multilevel, GivesTheSameBitsForAnyNumberOfThreads) {

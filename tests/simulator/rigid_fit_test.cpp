@@ -3,9 +3,12 @@
 
 #include <pent/simulator/rigid_fit.h>
 
+#include <Eigen/LU>
+#include <Eigen/QR>
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <random>
 
 namespace pent::simulator {
 namespace {
@@ -47,6 +50,31 @@ TEST(NonRigid, DoesNotTakeAReflectionForARotation) {
     Positions<4> now = start;
     now.row(3) *= -1;
     EXPECT_GT(non_rigid<4>(start, now, Eigen::VectorXd::Ones(start.cols())), 0.1);
+}
+
+// Determinants are 1 but for rounding, on either side of it.
+template <int Dim>
+void expect_that_no_rotation_shows() {
+    std::mt19937 random(8);
+    std::normal_distribution<double> normal;
+    const Positions<Dim> start = box<Dim>().positions;
+    const Eigen::VectorXd masses = uneven_masses(start.cols());
+    Positions<Dim> mirrored = start;
+    mirrored.row(0) *= -1;
+    for (int round = 0; round < 100; ++round) {
+        const Matrix<Dim> any = Matrix<Dim>::NullaryExpr([&] { return normal(random); });
+        Matrix<Dim> turn = Eigen::HouseholderQR<Matrix<Dim>>(any).householderQ();
+        if (turn.determinant() < 0) {
+            turn.col(0) *= -1;
+        }
+        EXPECT_LT(non_rigid<Dim>(start, turn * start, masses), 1e-13);
+        EXPECT_GT(non_rigid<Dim>(mirrored, turn * start, masses), 0.1);
+    }
+}
+
+TEST(NonRigid, IsZeroForRotationsDrawnAtRandomAndNotForTheirMirrorImages) {
+    expect_that_no_rotation_shows<3>();
+    expect_that_no_rotation_shows<4>();
 }
 
 }  // namespace

@@ -211,6 +211,36 @@ TEST(PoseAt, MovesAtTheEndOfAMotionToRounding) {
     EXPECT_LT((pose_at<4>(motion, time).velocity - Vector<4>(0, 2, 0, 0)).norm(), 1e-12);
 }
 
+// A step ends where one motion ends and the next begins, or next to it, since times are rounded:
+// it has moved by the first alone. In the first step of all there was none before.
+TEST(PoseAt, HasTheVelocityOfTheStepThatEndsThere) {
+    for (const double rate : {24.0, 30.0, 60.0, 100.0, 240.0}) {
+        double sum = 0;
+        for (int k = 1; k <= 300; ++k) {
+            sum += 1 / rate;
+            for (const double boundary : {k / rate, k * (1 / rate), sum}) {
+                Motion first = double_rotation();
+                first.from = 0;
+                first.to = boundary;
+                Motion second = first;
+                second.from = boundary;
+                second.to = std::numeric_limits<double>::infinity();
+                for (const double end : {k / rate, k * (1 / rate), sum}) {
+                    EXPECT_EQ(pose_at<4>(first, end).velocity, first.translate) << rate << " " << k;
+                    EXPECT_EQ(pose_at<4>(second, end).velocity, Vector<4>::Zero())
+                        << rate << " " << k;
+                    EXPECT_EQ(pose_at<4>(second, end).rate, Matrix<4>::Zero());
+                    EXPECT_EQ(pose_at<4>(second, end + 1 / rate).velocity, second.translate);
+                }
+            }
+        }
+    }
+    Motion from_the_start = double_rotation();
+    from_the_start.from = 0;
+    EXPECT_EQ(pose_at<4>(from_the_start, 0).velocity, from_the_start.translate);
+    EXPECT_NE(pose_at<4>(from_the_start, 0).rate, Matrix<4>::Zero());
+}
+
 TEST(LargestTurnRate, IsOfTheFastestPlaneAndLegBetweenKeyframes) {
     EXPECT_EQ(largest_turn_rate(double_rotation()), 90);
     EXPECT_NEAR(largest_turn_rate(through_keyframes()), 180, 1e-12);  // 90 degrees in 0.5 s

@@ -73,6 +73,47 @@ TEST(CheckScene, SaysWhatIsWrongAndWhatWasExpected) {
                  {.shape = BallObstacle{.center = Eigen::Vector4d::Zero(), .radius = -1}}};
          },
          {"obstacle", "radius", "above 0"}},
+        {[](Scene& s) {
+             const Region region{.name = "tip",
+                                 .select = {EverythingSelection{}},
+                                 .material = s.bodies[0].material};
+             s.bodies[0].regions = {region, region};
+         },
+         {"body \"box\"", "two regions have the name \"tip\""}},
+        {[](Scene& s) {
+             s.bodies[0].regions = {{.name = "a b",
+                                     .select = {EverythingSelection{}},
+                                     .material = s.bodies[0].material}};
+         },
+         {"body \"box\"", "the region \"a b\"", "letters, digits"}},
+        {[](Scene& s) { s.gravity.resize(0); }, {"gravity", "4 finite numbers"}},
+        {[](Scene& s) { s.bodies[0].place.scale = 0; }, {"\"box\"", "scale", "above 0"}},
+        {[](Scene& s) {
+             s.activations = {{.body = "box", .select = {EverythingSelection{}}, .stretch = 1.1}};
+             s.solver.elements = ElementKind::Smoothed;
+         },
+         {"activation", "smoothed"}},
+        {[](Scene& s) {
+             s.activations = {{.body = "bar", .select = {EverythingSelection{}}, .stretch = 1.1}};
+         },
+         {"activation of \"bar\"", "no body has this name"}},
+        {[](Scene& s) {
+             s.loads = {{.body = "bar", .select = {EverythingSelection{}}, .pressure = 1}};
+         },
+         {"load on \"bar\"", "no body has this name"}},
+        {[](Scene& s) {
+             s.attachments = {
+                 {.body = "bar", .select = {EverythingSelection{}}, .point = {}, .motion = {}}};
+         },
+         {"attachment of \"bar\"", "no body is called \"bar\""}},
+        {[](Scene& s) {
+             s.attachments = {{.body = "box",
+                               .select = {EverythingSelection{}},
+                               .target = "bar",
+                               .point = {},
+                               .motion = {}}};
+         },
+         {"attachment of \"box\"", "no body is called \"bar\""}},
     };
     for (const BadScene& entry : bad) {
         Scene scene = box_scene<4>();
@@ -81,6 +122,49 @@ TEST(CheckScene, SaysWhatIsWrongAndWhatWasExpected) {
         for (const std::string& part : entry.told) {
             pent::test::expect_contains(message, {part});
         }
+    }
+}
+
+// Each is what SaysWhatIsWrong spoils, as it may be.
+TEST(CheckScene, TakesPartsOfBodiesThatThereAre) {
+    Scene scene = box_scene<4>();
+    scene.bodies.push_back(scene.bodies[0]);
+    scene.bodies[1].name = std::string(100, 'b');
+    const std::vector<Selection> all = {EverythingSelection{}};
+    scene.constraints = {hold(EverythingSelection{}, still(4))};
+    scene.activations = {{.body = "box", .select = all, .stretch = 1.1}};
+    scene.loads = {{.body = "box", .select = all, .pressure = 1}};
+    scene.attachments = {
+        {.body = "box", .select = all, .point = {}, .motion = {}},
+        {.body = "box", .select = all, .target = scene.bodies[1].name, .point = {}, .motion = {}}};
+    scene.contact = ContactSettings{.model = ContactModel::Barrier};
+    scene.sleep = Sleep{};
+    scene.solver.integrator = Integrator::NewtonEuler;
+    EXPECT_NO_THROW(check(scene));
+    scene.solver.integrator = Integrator::LinearEuler;
+    scene.contact->model = ContactModel::Penalty;
+    EXPECT_NO_THROW(check(scene));
+}
+
+TEST(CheckScene, WantsEveryBodyHeldAllTheTimeInStaticsAlone) {
+    const auto held = [](double from, double to, const std::string& body) {
+        Scene scene = box_scene<4>();
+        scene.bodies.push_back(scene.bodies[0]);
+        scene.bodies[1].name = "other";
+        scene.solver.integrator = Integrator::Quasistatic;
+        scene.constraints = {hold(EverythingSelection{}, still(4)),
+                             hold(EverythingSelection{}, still(4))};
+        scene.constraints[1].body = body;
+        scene.constraints[1].from = from;
+        scene.constraints[1].to = to;
+        return scene;
+    };
+    const double forever = std::numeric_limits<double>::infinity();
+    EXPECT_NO_THROW(check(held(0, forever, "other")));
+    for (const Scene& scene :
+         {held(1, forever, "other"), held(0, 1, "other"), held(0, forever, "box")}) {
+        pent::test::expect_contains(error_of([&] { check(scene); }),
+                                    {"\"other\" has no constraint that lasts"});
     }
 }
 

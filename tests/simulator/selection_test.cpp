@@ -1,4 +1,5 @@
 #include "model/rotation.h"
+#include "model/selection_marks.h"
 #include "support/kuhn_box.h"
 #include "support/messages.h"
 
@@ -6,6 +7,8 @@
 #include <pent/simulator/placed_mesh.h>
 
 #include <gtest/gtest.h>
+
+#include <algorithm>
 
 namespace pent::simulator {
 namespace {
@@ -96,6 +99,62 @@ TEST(SelectVertices, SaysWhichConstraintSelectsNothingAndWhatThereIs) {
 
 TEST(SelectVertices, RefusesLayersOfAMeshThatHasNone) {
     EXPECT_THROW(static_cast<void>(select_vertices(unit_box(), select({LayerSelection{}}))), Error);
+}
+
+TEST(SelectVertices, AddsLayersAndRegionsToWhatOthersSelect) {
+    SimplexMesh<4> mesh = unit_box();
+    for (std::uint32_t v = 0; v < 81; ++v) {
+        mesh.layers.push_back(v / 27);  // along w
+    }
+    mesh.regions.assign(static_cast<std::size_t>(mesh.cell_count()), 0);
+    mesh.regions[0] = 7;
+    const HalfSpaceSelection low{.normal = Vector<4>(0, 0, 0, 1), .offset = 0};
+    const LayerSelection high{.first = 2, .last = 2};
+    EXPECT_EQ(select_vertices(mesh, select({low, high})).size(), 54U);
+    EXPECT_EQ(select_vertices(mesh, select({high, low})).size(), 54U);
+    EXPECT_EQ(select_vertices(mesh, select({high, EverythingSelection{}})).size(), 81U);
+    const auto count = [&](const std::vector<Selection>& selections) {
+        const std::vector<bool> marks = select_cells(mesh, selections, "here");
+        return std::count(marks.begin(), marks.end(), true);
+    };
+    const Eigen::Index cells = mesh.cell_count();
+    EXPECT_EQ(count({RegionSelection{.region = 7}}), 1);
+    EXPECT_EQ(count({RegionSelection{.region = 0}}), cells - 1);
+    EXPECT_EQ(count({RegionSelection{.region = 7}, RegionSelection{.region = 0}}), cells);
+    EXPECT_EQ(count({RegionSelection{.region = 0}, RegionSelection{.region = 7}}), cells);
+    // Cells lie between two layers: none is in one alone, half of them in the first two.
+    EXPECT_EQ(count({LayerSelection{.first = 0, .last = 1}}), cells / 2);
+    EXPECT_EQ(count({LayerSelection{.first = 0, .last = 1}, LayerSelection{.first = 1, .last = 2}}),
+              cells);
+}
+
+TEST(PlaceAndName, SaysWhereAPartStandsIfThatIsKnown) {
+    EXPECT_EQ(place_and_name(Region{.name = "a", .select = {}, .material = {}}), "region \"a\"");
+    EXPECT_EQ(place_and_name(Constraint{.body = "a", .select = {}, .motion = {}}),
+              "constraint on \"a\"");
+    EXPECT_EQ(place_and_name(Load{.body = "a", .select = {}}), "load on \"a\"");
+    EXPECT_EQ(place_and_name(Activation{.body = "a", .select = {}}), "activation of \"a\"");
+    EXPECT_EQ(place_and_name(Attachment{.body = "a", .select = {}, .point = {}, .motion = {}}),
+              "attachment of \"a\"");
+    EXPECT_EQ(place_and_name(Region{.name = "a", .select = {}, .material = {}, .source = "s:1"}),
+              "s:1: region \"a\"");
+    EXPECT_EQ(place_and_name(Constraint{.body = "a", .select = {}, .motion = {}, .source = "s:1"}),
+              "s:1: constraint on \"a\"");
+    EXPECT_EQ(place_and_name(Load{.body = "a", .select = {}, .source = "s:1"}),
+              "s:1: load on \"a\"");
+    EXPECT_EQ(place_and_name(Activation{.body = "a", .select = {}, .source = "s:1"}),
+              "s:1: activation of \"a\"");
+    EXPECT_EQ(place_and_name(Attachment{
+                  .body = "a", .select = {}, .point = {}, .motion = {}, .source = "s:1"}),
+              "s:1: attachment of \"a\"");
+}
+
+TEST(SelectsByRegion, IsSoIfAnyOfTheListDoes) {
+    const RegionSelection region{.region = 1};
+    EXPECT_TRUE(selects_by_region({region}));
+    EXPECT_TRUE(selects_by_region({EverythingSelection{}, region}));
+    EXPECT_FALSE(selects_by_region({EverythingSelection{}, LayerSelection{.first = 0, .last = 1}}));
+    EXPECT_FALSE(selects_by_region({}));
 }
 
 }  // namespace

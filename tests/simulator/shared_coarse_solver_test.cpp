@@ -4,7 +4,14 @@
 #include "cut_matrix.h"
 
 #include <Eigen/Cholesky>
+#include <Eigen/SVD>
 #include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <memory>
+#include <utility>
+#include <vector>
 
 namespace pent::simulator {
 namespace {
@@ -80,6 +87,107 @@ TEST(SharedCoarseSolver, SolvesForAllRanksHoweverManyRowsThereAre) {
                 EXPECT_EQ(z[kModeCount * row], 0);
             }
         });
+    }
+}
+
+// A rank that keeps what it is asked to make a solver for, and makes none.
+class KeepingRank final : public Ranks {
+public:
+    KeepingRank(std::shared_ptr<const Ranks> ranks, SpreadMatrix& kept)
+        : ranks_(std::move(ranks)), kept_(&kept) {}
+
+    [[nodiscard]] int count() const override { return ranks_->count(); }
+    [[nodiscard]] int rank() const override { return ranks_->rank(); }
+    [[nodiscard]] std::vector<double> gather(std::span<const double> own,
+                                             std::span<const std::int64_t> sizes) const override {
+        return ranks_->gather(own, sizes);
+    }
+    [[nodiscard]] std::unique_ptr<GhostExchange> make_exchange(
+        const Ghosts& ghosts) const override {
+        return ranks_->make_exchange(ghosts);
+    }
+    [[nodiscard]] std::unique_ptr<SpreadSolver> make_solver(
+        const SpreadMatrix& matrix) const override {
+        *kept_ = matrix;
+        return nullptr;
+    }
+    [[nodiscard]] RankTraffic take_traffic() const override { return ranks_->take_traffic(); }
+
+private:
+    std::shared_ptr<const Ranks> ranks_;
+    SpreadMatrix* kept_;
+};
+
+// A body that is nowhere held has no stiffness against rigid motions: aggregates, of five vertices
+// or of one, have none either, moved as their part of one.
+TEST(SharedCoarseSolver, TellsTheRigidMotionsThatItsMatrixHasNoStiffnessAgainst) {
+    constexpr int kRanks = 3;
+    SimplexMesh<4> mesh = pent::test::kuhn_box<4>({6, 4, 3, 2}, {3, 2, 1.5, 1});
+    mesh.positions += 0.05 * Positions<4>::Random(4, mesh.vertex_count());
+    const test::ElasticBox<4> box(mesh, {.lame = {.lambda = 2, .mu = 1}}, ElementKind::Linear);
+    BlockMatrix<4, double> whole(box.pattern);
+    const Workers workers(1);
+    box.elements->add_hessian(workers, kernels<4>(Isa::Baseline), box.positions,
+                              target_in(whole, 1, Filter::Clamp));
+    std::vector<std::uint32_t> owners;
+    for (std::uint32_t dof = 0; dof < whole.rows(); ++dof) {
+        owners.push_back(dof * dof % 7 % kRanks);
+    }
+    for (const std::uint32_t most : {1U, 5U}) {
+        std::array<SpreadMatrix, kRanks> kept;
+        test::on_ranks(kRanks, [&](const std::shared_ptr<const Ranks>& ranks) {
+            const auto rank = static_cast<std::size_t>(ranks->rank());
+            const CutMatrix cut(whole, owners, std::make_shared<KeepingRank>(ranks, kept[rank]));
+            const auto rows = static_cast<std::uint32_t>(cut.A->rows());
+            const Hierarchy hierarchy({test::by_number(rows, most)}, cut.pattern, nullptr,
+                                      {&cut.sharing, cut.exchange.get()}, cut.ghosts);
+            const HierarchyLevel& level = hierarchy.levels[0];
+            Positions<4> positions(4, whole.rows());
+            for (std::uint32_t column = 0; column < positions.cols(); ++column) {
+                positions.col(column) = box.positions.col(box.dofs.vertex_of(cut.dofs[column]));
+            }
+            const ChildPlaces<4> vertices(positions);
+            const AggregatePlaces<4> places = places_of(workers, level.aggregates, vertices);
+            const auto A = galerkin_product(
+                workers, kernels<4>(Isa::Baseline).blocks, *cut.A, level.aggregates,
+                arms_of(workers, level.aggregates, vertices, places, cut.exchange.get()),
+                level.pattern);
+            const SharedCoarseSolver<4, double> solver(workers, A, level, places, &cut.sharing);
+        });
+        const std::int64_t count = kept.back().first_row + kept.back().rows();
+        ASSERT_GT(count, 64) << "too few for rows to be spread";
+        Eigen::MatrixXd motions(kModeCount * count, kModeCount);
+        for (const SpreadMatrix& own : kept) {
+            ASSERT_EQ(own.block_size, kModeCount);
+            motions.middleRows(kModeCount * own.first_row, own.near_kernel.rows()) =
+                own.near_kernel;
+        }
+        Eigen::MatrixXd image = Eigen::MatrixXd::Zero(motions.rows(), kModeCount);
+        Eigen::VectorXd squares = Eigen::VectorXd::Zero(motions.rows());  // of the rows of A
+        for (const SpreadMatrix& own : kept) {
+            for (std::int64_t i = 0; i < own.rows(); ++i) {
+                const Eigen::Index row = kModeCount * (own.first_row + i);
+                for (std::int64_t k = own.row_start[static_cast<std::size_t>(i)];
+                     k < own.row_start[static_cast<std::size_t>(i) + 1]; ++k) {
+                    using Block = Eigen::Matrix<double, kModeCount, kModeCount, Eigen::RowMajor>;
+                    const Block block =
+                        Eigen::Map<const Block>(own.values.data() + k * Block::SizeAtCompileTime);
+                    image.middleRows<kModeCount>(row) +=
+                        block
+                        * motions.middleRows<kModeCount>(
+                            kModeCount * own.columns[static_cast<std::size_t>(k)]);
+                    squares.segment<kModeCount>(row) += block.rowwise().squaredNorm();
+                }
+            }
+        }
+        for (Eigen::Index row = 0; row < image.rows(); ++row) {
+            if (squares[row] == 1) {  // of a rotation of a single vertex, which moves none
+                image.row(row).setZero();
+            }
+        }
+        // 1e-10 is added to the diagonal.
+        EXPECT_LT(image.norm(), 1e-9 * std::sqrt(squares.sum()) * motions.norm());
+        EXPECT_GT(motions.jacobiSvd().singularValues().minCoeff(), 1e-2 * motions.norm());
     }
 }
 

@@ -71,7 +71,8 @@ struct SpringyBox {
              .rest = at_dofs<kBoxDim>(box.dofs, box.mesh.positions)});
     }
     [[nodiscard]] std::unique_ptr<LinearSolver<kBoxDim>> direct() const {
-        return make_direct_solver<kBoxDim>(at_dofs<kBoxDim>(box.dofs, box.mesh.positions));
+        return make_direct_solver<kBoxDim>(kernels<kBoxDim>(best_isa()).blocks,
+                                           at_dofs<kBoxDim>(box.dofs, box.mesh.positions));
     }
     [[nodiscard]] LinearSolution<kBoxDim> solve(LinearSolver<kBoxDim>& solver,
                                                 double tolerance) const {

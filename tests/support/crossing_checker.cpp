@@ -77,22 +77,31 @@ public:
         : a0_(a0), a1_(a1), b0_(b0), b1_(b1) {}
 
     [[nodiscard]] bool do_meet() const {
+        static const Square kToBernstein = bernstein().fullPivLu().inverse();  // of all pairs
         Coefficients values;
-        Eigen::Matrix<Real, Dim + 1, Dim + 1> bernstein;
         for (int k = 0; k <= Dim; ++k) {
-            const Real t = static_cast<Real>(k) / Dim;
-            values[k] = volume(t);
-            Real binomial = 1;
-            for (int i = 0; i <= Dim; ++i) {
-                bernstein(k, i) = binomial * std::pow(t, i) * std::pow(1 - t, Dim - i);
-                binomial = binomial * (Dim - i) / (i + 1);
-            }
+            values[k] = volume(static_cast<Real>(k) / Dim);
         }
-        return has_meeting_root(bernstein.fullPivLu().solve(values), 0, 1);
+        return has_meeting_root(kToBernstein * values, 0, 1);
     }
 
 private:
     using Coefficients = Eigen::Matrix<Real, Dim + 1, 1>;
+    using Square = Eigen::Matrix<Real, Dim + 1, Dim + 1>;
+
+    // Of each time a row: what the Bernstein polynomials are there.
+    [[nodiscard]] static Square bernstein() {
+        Square at;
+        for (int k = 0; k <= Dim; ++k) {
+            const Real t = static_cast<Real>(k) / Dim;
+            Real binomial = 1;
+            for (int i = 0; i <= Dim; ++i) {
+                at(k, i) = binomial * std::pow(t, i) * std::pow(1 - t, Dim - i);
+                binomial = binomial * (Dim - i) / (i + 1);
+            }
+        }
+        return at;
+    }
 
     [[nodiscard]] RealCorners<Dim, K> a(Real t) const { return (1 - t) * a0_ + t * a1_; }
     [[nodiscard]] RealCorners<Dim, L> b(Real t) const { return (1 - t) * b0_ + t * b1_; }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "kernels/kernel_columns.h"
+#include "kernels/kernel_fronts.h"
 #include "kernels/kernel_galerkin.h"
 #include "kernels/kernel_hessian.h"
 #include "kernels/kernel_modes.h"
@@ -26,20 +27,20 @@ constexpr auto choose_multiply() {
 template <int Dim, typename DoublePack>
 constexpr BlockKernels block_kernels() {
     constexpr bool kIsVectorized = Lanes<DoublePack>::kCount > 1;
-    return {
-        .multiply_float = choose_multiply<Dim, float, kIsVectorized>(),
-        .multiply_double = choose_multiply<Dim, double, kIsVectorized>(),
-        .modes_float = mode_kernels<kModes<Dim>, kIsVectorized, float>(),
-        .modes_double = mode_kernels<kModes<Dim>, kIsVectorized, double>(),
-        .factor_columns_float = &factor_columns<Dim, DoublePack, float>,
-        .factor_columns_double = &factor_columns<Dim, DoublePack, double>,
-        .solve_columns = &solve_columns<Dim, kIsVectorized>,
-        .sum_forces = &sum_forces<Dim, kIsVectorized>,
-        .add_motions = &add_motions<Dim, kIsVectorized>,
-        .galerkin_float = &galerkin<GalerkinOfVertices<Dim, kIsVectorized, float>, float>,
-        .galerkin_double = &galerkin<GalerkinOfVertices<Dim, kIsVectorized, double>, double>,
-        .galerkin_modes_float = &galerkin<GalerkinOfModes<Dim, kIsVectorized, float>, float>,
-        .galerkin_modes_double = &galerkin<GalerkinOfModes<Dim, kIsVectorized, double>, double>};
+    return {.multiply_float = choose_multiply<Dim, float, kIsVectorized>(),
+            .multiply_double = choose_multiply<Dim, double, kIsVectorized>(),
+            .modes_float = mode_kernels<kModes<Dim>, kIsVectorized, float>(),
+            .modes_double = mode_kernels<kModes<Dim>, kIsVectorized, double>(),
+            .factor_columns_float = &factor_columns<Dim, DoublePack, float>,
+            .factor_columns_double = &factor_columns<Dim, DoublePack, double>,
+            .solve_columns = &solve_columns<Dim, kIsVectorized>,
+            .sum_forces = &sum_forces<Dim, kIsVectorized>,
+            .add_motions = &add_motions<Dim, kIsVectorized>,
+            .galerkin_float = &galerkin<GalerkinOfVertices<Dim, kIsVectorized, float>, float>,
+            .galerkin_double = &galerkin<GalerkinOfVertices<Dim, kIsVectorized, double>, double>,
+            .galerkin_modes_float = &galerkin<GalerkinOfModes<Dim, kIsVectorized, float>, float>,
+            .galerkin_modes_double = &galerkin<GalerkinOfModes<Dim, kIsVectorized, double>, double>,
+            .eliminate_front = &eliminate_front<DoublePack>};
 }
 
 // A simplex is the case of Dim + 1 corners of the kernels for any number of them, which give the

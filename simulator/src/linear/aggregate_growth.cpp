@@ -41,10 +41,9 @@ public:
         return finish();
     }
 
-    // From pieces on, each node in one of so many.
-    Aggregates mend(std::vector<std::uint32_t> piece_of, std::size_t count) {
+    // From pieces on, each node in one.
+    Aggregates mend(std::vector<std::uint32_t> piece_of) {
         owner_ = std::move(piece_of);
-        members_.resize(count);
         return finish();
     }
 
@@ -258,15 +257,14 @@ Aggregates grow_aggregates(const AggregateNodes<Dim>& nodes, double size) {
 template <int Dim>
 Aggregates mend_aggregates(const AggregateNodes<Dim>& nodes,
                            double size,
-                           std::vector<std::uint32_t> piece_of,
-                           std::size_t pieces) {
-    return Growth<Dim>(nodes, size).mend(std::move(piece_of), pieces);
+                           std::vector<std::uint32_t> piece_of) {
+    return Growth<Dim>(nodes, size).mend(std::move(piece_of));
 }
 
 #define PENT_INSTANTIATE(Dim)                                                     \
     template Aggregates grow_aggregates<Dim>(const AggregateNodes<Dim>&, double); \
     template Aggregates mend_aggregates<Dim>(const AggregateNodes<Dim>&, double,  \
-                                             std::vector<std::uint32_t>, std::size_t);
+                                             std::vector<std::uint32_t>);
 PENT_FOR_EACH_DIMENSION(PENT_INSTANTIATE)
 #undef PENT_INSTANTIATE
 

@@ -35,12 +35,11 @@ template <int Dim>
 /// Aggregates from pieces that are there: the parts of each that hang together; what is small joins
 /// what it has most links with.
 ///
-/// @param piece_of  Of each node, below `pieces`.
+/// @param piece_of  A number of each node's piece.
 /// @return          As above.
 template <int Dim>
 [[nodiscard]] Aggregates mend_aggregates(const AggregateNodes<Dim>& nodes,
                                          double size,
-                                         std::vector<std::uint32_t> piece_of,
-                                         std::size_t pieces);
+                                         std::vector<std::uint32_t> piece_of);
 
 }  // namespace pent::simulator

@@ -97,11 +97,11 @@ std::vector<double> parts_of_columns(const std::vector<double>& heights,
     for (std::size_t column = 0; column + 1 < column_start.size(); ++column) {
         const std::uint32_t begin = column_start[column];
         const std::uint32_t end = column_start[column + 1];
-        const double most = std::max(1.0, static_cast<double>(end) - begin);
+        const double most = static_cast<double>(end) - begin;
         const double height = sum_of(heights, begin, end);
         const double weight = sum_of(weights, begin, end);
         const double width = std::pow(kDofs * height / (kSlenderness * weight), 1.0 / Dim);
-        parts.push_back(weight > 0 ? std::clamp(height / (kSlenderness * width), 1.0, most) : 1);
+        parts.push_back(std::clamp(height / (kSlenderness * width), 1.0, most));
     }
     return parts;
 }
@@ -166,7 +166,7 @@ Aggregates aggregate_columns(const std::vector<std::uint32_t>& column_start,
         }
         pieces += count;
     }
-    return mend_aggregates(dofs, kDofs, std::move(piece_of), pieces);
+    return mend_aggregates(dofs, kDofs, std::move(piece_of));
 }
 
 }  // namespace

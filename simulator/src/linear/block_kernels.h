@@ -122,6 +122,21 @@ inline constexpr std::size_t kGalerkinScratch =
     Rows == Dim ? Dim* Dim*(4 + 4 * 4)
                 : Dim*(Dim + 1) / 2 * Dim*(Dim + 2 * ((Rows + Dim - 1) / Dim));
 
+/// A dense part of a sparse matrix while it is factored, by columns: those to eliminate, with
+/// the rows that they have at the diagonal and below it.
+///
+/// Behind the rows of each matrix there are kFrontRoom more, zero: kernels go by registers of rows.
+struct Front {
+    double* panel = nullptr;  ///< width + below rows, width columns.
+    std::size_t panel_stride = 0;
+    std::size_t width = 0;
+    std::size_t below = 0;
+    double* update = nullptr;  ///< below x below.
+    std::size_t update_stride = 0;
+};
+
+inline constexpr std::size_t kFrontRoom = 7;
+
 /// The inner loops of linear algebra.
 struct BlockKernels {
     /// y += A x for Dim x Dim blocks. Rows hold the upper triangle, the diagonal block first; their
@@ -165,6 +180,11 @@ struct BlockKernels {
                                   const SymmetricParts<double>& A,
                                   double* blocks,
                                   double* above);
+
+    /// [L; R] of a panel [A; B], by A = L L^T and R = B L^-T, and update -= R R^T: of what is above
+    /// a diagonal nothing is read, and it may be overwritten. Returns whether all pivots were
+    /// positive.
+    bool (*eliminate_front)(const Front& front);
 };
 
 }  // namespace pent::simulator

@@ -45,6 +45,8 @@ using BlockVector = Positions<Dim>;
 /// what contact couples beyond elasticity. They include what compensate() has found, too.
 template <int Dim, typename Scalar>
 class BlockMatrix {
+    using DoubleBlock = Eigen::Matrix<double, Dim, Dim>;
+
 public:
     using Block = Eigen::Matrix<Scalar, Dim, Dim>;
     static constexpr std::int64_t kEntries = std::int64_t{Dim} * Dim;
@@ -67,6 +69,14 @@ public:
     }
     [[nodiscard]] const Block diagonal(std::int64_t row) const { return block(diagonal_of(row)); }
     // NOLINTEND(readability-const-return-type)
+    /// A block of a row as products have it: with what compensate() has found.
+    [[nodiscard]] DoubleBlock compensated_block(std::int64_t row, std::int64_t index) const {
+        DoubleBlock block = this->block(index).template cast<double>();
+        if (!compensation_.empty() && index == diagonal_of(row)) {
+            block += compensation_[static_cast<std::size_t>(row)];
+        }
+        return block;
+    }
     /// Index of the diagonal block of a row.
     [[nodiscard]] std::int64_t diagonal_of(std::int64_t row) const {
         return pattern_->row_start[static_cast<std::size_t>(row)];
@@ -170,8 +180,6 @@ public:
     }
 
 private:
-    using DoubleBlock = Eigen::Matrix<double, Dim, Dim>;
-
     // Calls work(begin, end) for chunks of rows, at the same time for those that share no dof.
     template <typename Work>
     void for_each_colored_chunk(const Workers& workers, const Work& work) const {

@@ -13,6 +13,9 @@ namespace {
 
 constexpr Eigen::Index kChunkColumns = 512;
 
+// Iterations before anything else is thought of.
+constexpr int kPatience = 8;
+
 int chunk_count(Eigen::Index columns) {
     return static_cast<int>((columns + kChunkColumns - 1) / kChunkColumns);
 }
@@ -120,7 +123,8 @@ LinearSolution<Dim> ConjugateGradients<Dim>::solve(const BlockMatrix<Dim, Scalar
                                                    const BlockVector<Dim>& b,
                                                    const LinearSolveOptions& options,
                                                    BlockVector<Dim> guess,
-                                                   const Halo& halo) {
+                                                   const Halo& halo,
+                                                   const Alternative& alternative) {
     halo_ = halo;
     LinearSolution<Dim> solution{std::move(guess), {}};
     LinearSolveReport& report = solution.report;
@@ -149,11 +153,12 @@ LinearSolution<Dim> ConjugateGradients<Dim>::solve(const BlockMatrix<Dim, Scalar
         report.residual = left;
         report.has_converged = left <= options.tolerance;
         if (report.has_converged || !std::isfinite(left) || start == kMaxStarts
-            || report.iterations >= options.max_iterations || report.has_broken_down) {
+            || report.iterations >= options.max_iterations || report.has_broken_down
+            || report.is_slow) {
             return solution;
         }
         // A little below the tolerance, so that the true residual meets it at the first check.
-        iterate(A, preconditioner, options, 0.95 * options.tolerance, solution);
+        iterate(A, preconditioner, options, 0.95 * options.tolerance, alternative, solution);
         left = find_residual(A, b, solution.x);
     }
 }
@@ -195,14 +200,24 @@ void ConjugateGradients<Dim>::iterate(const BlockMatrix<Dim, Scalar>& A,
                                       const Preconditioner<Dim>& preconditioner,
                                       const LinearSolveOptions& options,
                                       double enough,
+                                      const Alternative& alternative,
                                       LinearSolution<Dim>& solution) {
     LinearSolveReport& report = solution.report;
     const Eigen::Index rows = A.rows();
     p_.setZero();
+    const double before = report.residual;
     double left = std::numeric_limits<double>::infinity();
     double rz_before = 1;
     double step = 0;  // along p, which x has yet to follow
-    while (left > enough && report.iterations < options.max_iterations) {
+    double worth = std::numeric_limits<double>::infinity();
+    for (int spent = 0; left > enough && report.iterations < options.max_iterations; ++spent) {
+        if (spent == kPatience && alternative) {
+            worth = alternative();
+        }
+        if (spent >= worth && std::log(left / enough) > worth * std::log(before / left) / spent) {
+            report.is_slow = true;
+            break;
+        }
         const double rz = halo_.sum(preconditioner.apply(*workers_, r_, z_));
         follow_and_turn(*workers_, rows, step, rz / rz_before, z_, p_, solution.x);
         halo_.update(p_);
@@ -223,7 +238,7 @@ void ConjugateGradients<Dim>::iterate(const BlockMatrix<Dim, Scalar>& A,
 #define PENT_INSTANTIATE(Dim, Scalar)                                                         \
     template LinearSolution<Dim> ConjugateGradients<Dim>::solve(                              \
         const BlockMatrix<Dim, Scalar>&, const Preconditioner<Dim>&, const BlockVector<Dim>&, \
-        const LinearSolveOptions&, BlockVector<Dim>, const Halo&);
+        const LinearSolveOptions&, BlockVector<Dim>, const Halo&, const Alternative&);
 PENT_FOR_EACH_DIMENSION(PENT_INSTANTIATE, float)
 PENT_FOR_EACH_DIMENSION(PENT_INSTANTIATE, double)
 #undef PENT_INSTANTIATE

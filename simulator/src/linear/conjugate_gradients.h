@@ -5,6 +5,7 @@
 #include "linear/linear_solve.h"
 #include "linear/preconditioner.h"
 
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -21,13 +22,20 @@ public:
     ConjugateGradients(const Workers& workers, const BlockKernels& kernels)
         : workers_(&workers), kernels_(&kernels) {}
 
+    /// As many iterations as another way to solve the same equation takes time, asked once there
+    /// have been a few.
+    using Alternative = std::function<double()>;
+
+    /// @param alternative  Taken where, after that many iterations, as many more would not be
+    ///                     enough at the mean rate so far.
     template <typename Scalar>
     [[nodiscard]] LinearSolution<Dim> solve(const BlockMatrix<Dim, Scalar>& A,
                                             const Preconditioner<Dim>& preconditioner,
                                             const BlockVector<Dim>& b,
                                             const LinearSolveOptions& options,
                                             BlockVector<Dim> guess,
-                                            const Halo& halo = {});
+                                            const Halo& halo = {},
+                                            const Alternative& alternative = nullptr);
 
 private:
     // r_ = b - A x; returns what is left of b.
@@ -42,12 +50,13 @@ private:
     // What r_ is of b, by the norm in which that is more.
     [[nodiscard]] double part_left(double r_square) const;
     // From x, whose residual is r_, until the one that is carried along is small enough, iterations
-    // are spent, or a direction shows that A is not positive definite.
+    // are spent or take too long, or a direction shows that A is not positive definite.
     template <typename Scalar>
     void iterate(const BlockMatrix<Dim, Scalar>& A,
                  const Preconditioner<Dim>& preconditioner,
                  const LinearSolveOptions& options,
                  double enough,
+                 const Alternative& alternative,
                  LinearSolution<Dim>& solution);
 
     const Workers* workers_;

@@ -22,7 +22,7 @@ void subtract_product(const BlockMatrix<Dim, Scalar>& A,
         const auto r = static_cast<std::size_t>(row);
         for (std::int64_t k = pattern.row_start[r]; k < pattern.row_start[r + 1]; ++k) {
             const auto column = pattern.columns[static_cast<std::size_t>(k)];
-            const Eigen::Matrix<double, Dim, Dim> block = A.block(k).template cast<double>();
+            const Eigen::Matrix<double, Dim, Dim> block = A.compensated_block(row, k);
             residual.col(row) -= block * x.col(column);
             if (column != row) {
                 residual.col(column) -= block.transpose() * x.col(row);
@@ -34,7 +34,8 @@ void subtract_product(const BlockMatrix<Dim, Scalar>& A,
 template <int Dim>
 class DirectSolver final : public LinearSolver<Dim> {
 public:
-    explicit DirectSolver(BlockVector<Dim> rest) : rest_(std::move(rest)) {}
+    DirectSolver(const BlockKernels& kernels, BlockVector<Dim> rest)
+        : kernels_(&kernels), rest_(std::move(rest)) {}
 
     LinearSolution<Dim> solve(const NewtonSystem<Dim>& system,
                               const BlockVector<Dim>& /*positions*/,
@@ -61,7 +62,7 @@ private:
         } else if (!plain_) {
             plain_ = eliminate(link_dofs(A.pattern()), rest_);
         }
-        const auto factors = Factorization<Dim>::make(A, coupled ? *coupled : *plain_);
+        const auto factors = Factorization<Dim>::make(*kernels_, A, coupled ? *coupled : *plain_);
         report.has_broken_down = !factors;
         const double b_norm = b.norm();
         if (!factors || b_norm == 0) {
@@ -80,6 +81,7 @@ private:
         return solution;
     }
 
+    const BlockKernels* kernels_;
     BlockVector<Dim> rest_;
     std::optional<Elimination> plain_;  // without what touches, from the first such solve on
 };
@@ -87,8 +89,9 @@ private:
 }  // namespace
 
 template <int Dim>
-std::unique_ptr<LinearSolver<Dim>> make_direct_solver(BlockVector<Dim> rest) {
-    return std::make_unique<DirectSolver<Dim>>(std::move(rest));
+std::unique_ptr<LinearSolver<Dim>> make_direct_solver(const BlockKernels& kernels,
+                                                      BlockVector<Dim> rest) {
+    return std::make_unique<DirectSolver<Dim>>(kernels, std::move(rest));
 }
 
 template <int Dim>
@@ -97,8 +100,9 @@ std::int64_t direct_bytes(const BlockPattern& pattern, const BlockVector<Dim>& r
            * static_cast<std::int64_t>(sizeof(double));
 }
 
-#define PENT_INSTANTIATE(Dim)                                                         \
-    template std::unique_ptr<LinearSolver<Dim>> make_direct_solver(BlockVector<Dim>); \
+#define PENT_INSTANTIATE(Dim)                                                           \
+    template std::unique_ptr<LinearSolver<Dim>> make_direct_solver(const BlockKernels&, \
+                                                                   BlockVector<Dim>);   \
     template std::int64_t direct_bytes(const BlockPattern&, const BlockVector<Dim>&);
 PENT_FOR_EACH_DIMENSION(PENT_INSTANTIATE)
 #undef PENT_INSTANTIATE

@@ -31,12 +31,16 @@ Places inverse(const Places& order) {
     return place;
 }
 
+Places ascending(std::size_t count) {
+    Places order(count);
+    std::iota(order.begin(), order.end(), 0U);
+    return order;
+}
+
 class Dissection {
 public:
     Dissection(const Links& links, const Eigen::Ref<const Eigen::MatrixXd>& places)
-        : links_(links), places_(places), side_(links.size(), 0), order_(links.size()) {
-        std::iota(order_.begin(), order_.end(), 0U);
-    }
+        : links_(links), places_(places), side_(links.size(), 0), order_(ascending(links.size())) {}
 
     Places run() {
         divide(order_);
@@ -264,10 +268,33 @@ void count_costs(Elimination& elimination) {
     }
 }
 
+// Of the factor in the order of the dofs, as if no block was zero between the first of each row and
+// the diagonal.
+double products_in_profile(const Links& links) {
+    double products = 0;
+    for (std::uint32_t row = 0; row < links.size(); ++row) {
+        std::uint32_t first = row;
+        links.for_each(row, [&](std::uint32_t other) { first = std::min(first, other); });
+        const auto before = static_cast<double>(row - first);
+        products += before * (before + 1) / 2;
+    }
+    return products;
+}
+
 }  // namespace
 
 Elimination eliminate(const Links& links, const Eigen::Ref<const Eigen::MatrixXd>& places) {
-    return links.size() == 0 ? Elimination() : eliminate(links, Dissection(links, places).run());
+    if (links.size() == 0) {
+        return {};
+    }
+    Elimination dissected = eliminate(links, Dissection(links, places).run());
+    if (products_in_profile(links) < dissected.products) {
+        Elimination in_order = eliminate(links, ascending(links.size()));
+        if (in_order.products < dissected.products) {
+            return in_order;
+        }
+    }
+    return dissected;
 }
 
 Elimination eliminate(const Links& links, const std::vector<std::uint32_t>& order) {

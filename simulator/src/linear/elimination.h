@@ -29,7 +29,8 @@ struct Elimination {
 };
 
 /// Orders by nested dissection [george1973]: halves of a body, cut across its longest side, and
-/// behind both what links them. Columns become supernodes where that stores few zeros.
+/// behind both what links them; or, where that takes fewer products, as slender bodies from end to
+/// end do, as the dofs are numbered. Columns become supernodes where that stores few zeros.
 ///
 /// @param places  A column for each dof, m: where they are at rest.
 [[nodiscard]] Elimination eliminate(const Links& links,

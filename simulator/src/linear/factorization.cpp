@@ -2,9 +2,8 @@
 
 #include <pent/dimensions.h>
 
-#include <Eigen/Cholesky>
-
 #include <algorithm>
+#include <span>
 #include <utility>
 
 namespace pent::simulator {
@@ -25,7 +24,7 @@ template <int Dim, typename Scalar>
 class Entries {
 public:
     Entries(const BlockMatrix<Dim, Scalar>& A, const Elimination& elimination)
-        : A_(&A), start_(elimination.order.size() + 1, 0) {
+        : A_(&A), order_(elimination.order), start_(elimination.order.size() + 1, 0) {
         const BlockPattern& pattern = A.pattern();
         entries_.resize(pattern.columns.size());
         const auto visit = [&](const auto& act) {
@@ -54,7 +53,7 @@ public:
             for (std::size_t e = start_[node.begin + j]; e < start_[node.begin + j + 1]; ++e) {
                 const Entry& entry = entries_[e];
                 const Eigen::Matrix<double, Dim, Dim> block =
-                    A_->block(entry.block).template cast<double>();
+                    A_->compensated_block(order_[entry.row], entry.block);
                 auto target = panel.block<Dim, Dim>(Dim * local[entry.row], Dim * j);
                 if (entry.is_transposed) {
                     target += block.transpose();
@@ -67,6 +66,7 @@ public:
 
 private:
     const BlockMatrix<Dim, Scalar>* A_;
+    std::span<const std::uint32_t> order_;
     std::vector<std::size_t> start_;
     std::vector<Entry> entries_;
 };
@@ -94,30 +94,12 @@ void add_update(const Matrix& update,
     }
 }
 
-// Eliminates the columns of a panel. Returns whether all pivots were positive.
-bool eliminate_columns(Matrix& panel, Matrix& update) {
-    const Eigen::Index width = panel.cols();
-    const Eigen::Index below = panel.rows() - width;
-    Eigen::Ref<Matrix> pivots = panel.topRows(width);
-    if (Eigen::LLT<Eigen::Ref<Matrix>>(pivots).info() != Eigen::Success) {
-        return false;
-    }
-    if (below > 0) {
-        auto rows = panel.bottomRows(below);
-        panel.topRows(width)
-            .triangularView<Eigen::Lower>()
-            .transpose()
-            .solveInPlace<Eigen::OnTheRight>(rows);
-        update.selfadjointView<Eigen::Lower>().rankUpdate(rows, -1);
-    }
-    return true;
-}
-
 }  // namespace
 
 template <int Dim>
 template <typename Scalar>
-std::optional<Factorization<Dim>> Factorization<Dim>::make(const BlockMatrix<Dim, Scalar>& A,
+std::optional<Factorization<Dim>> Factorization<Dim>::make(const BlockKernels& kernels,
+                                                           const BlockMatrix<Dim, Scalar>& A,
                                                            const Elimination& elimination) {
     std::vector<Entries<Dim, Scalar>> parts = {{A, elimination}};
     if (A.coupling() != nullptr) {
@@ -139,17 +121,21 @@ std::optional<Factorization<Dim>> Factorization<Dim>::make(const BlockMatrix<Dim
         }
         const auto width = static_cast<Eigen::Index>(Dim * node.width);
         const auto below = static_cast<Eigen::Index>(Dim * node.rows.size());
-        Matrix& panel = factors.panels_.emplace_back(Matrix::Zero(width + below, width));
-        updates[s].setZero(below, below);
+        constexpr auto kRoom = static_cast<Eigen::Index>(kFrontRoom);
+        Matrix& panel = factors.panels_.emplace_back(Matrix::Zero(width + below + kRoom, width));
+        Matrix& update = updates[s];
+        update.setZero(below + kRoom, below);
         for (const auto& part : parts) {
             part.add_to(panel, node, local);
         }
         for (const std::size_t child : children[s]) {
-            add_update<Dim>(updates[child], nodes[child].rows, local, node.width, panel,
-                            updates[s]);
+            add_update<Dim>(updates[child], nodes[child].rows, local, node.width, panel, update);
             updates[child].resize(0, 0);
         }
-        if (!eliminate_columns(panel, updates[s])) {
+        if (!kernels.eliminate_front({panel.data(), static_cast<std::size_t>(panel.rows()),
+                                      static_cast<std::size_t>(width),
+                                      static_cast<std::size_t>(below), update.data(),
+                                      static_cast<std::size_t>(update.rows())})) {
             return std::nullopt;
         }
         if (node.parent >= 0) {
@@ -157,6 +143,13 @@ std::optional<Factorization<Dim>> Factorization<Dim>::make(const BlockMatrix<Dim
         }
     }
     return factors;
+}
+
+template <int Dim>
+auto Factorization<Dim>::rows_below(std::size_t s) const {
+    return panels_[s].middleRows(
+        panels_[s].cols(),
+        Dim * static_cast<Eigen::Index>(elimination_->supernodes[s].rows.size()));
 }
 
 template <int Dim>
@@ -174,7 +167,7 @@ BlockVector<Dim> Factorization<Dim>::solve(const BlockVector<Dim>& b) const {
         panels_[s].topRows(width).template triangularView<Eigen::Lower>().solveInPlace(solved);
         own = solved;
         below.resize(Dim, static_cast<Eigen::Index>(nodes[s].rows.size()));
-        below.reshaped() = panels_[s].bottomRows(panels_[s].rows() - width) * solved;
+        below.reshaped() = rows_below(s) * solved;
         for (std::size_t i = 0; i < nodes[s].rows.size(); ++i) {
             x.col(nodes[s].rows[i]) -= below.col(static_cast<Eigen::Index>(i));
         }
@@ -187,7 +180,7 @@ BlockVector<Dim> Factorization<Dim>::solve(const BlockVector<Dim>& b) const {
         }
         auto own = x.middleCols(nodes[s].begin, nodes[s].width).reshaped();
         Eigen::VectorXd solved = own;
-        solved -= panels_[s].bottomRows(panels_[s].rows() - width).transpose() * below.reshaped();
+        solved -= rows_below(s).transpose() * below.reshaped();
         panels_[s].topRows(width).template triangularView<Eigen::Lower>().transpose().solveInPlace(
             solved);
         own = solved;
@@ -201,7 +194,7 @@ BlockVector<Dim> Factorization<Dim>::solve(const BlockVector<Dim>& b) const {
 
 #define PENT_INSTANTIATE(Dim, Scalar)                                    \
     template std::optional<Factorization<Dim>> Factorization<Dim>::make( \
-        const BlockMatrix<Dim, Scalar>&, const Elimination&);
+        const BlockKernels&, const BlockMatrix<Dim, Scalar>&, const Elimination&);
 #define PENT_INSTANTIATE_CLASS(Dim) template class Factorization<Dim>;
 PENT_FOR_EACH_DIMENSION(PENT_INSTANTIATE_CLASS)
 PENT_FOR_EACH_DIMENSION(PENT_INSTANTIATE, float)

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "linear/block_kernels.h"
 #include "linear/block_matrix.h"
 #include "linear/elimination.h"
 
@@ -19,7 +20,8 @@ public:
     /// @param elimination  Of the links of both parts of the matrix; must outlive this.
     /// @return             Nothing where a pivot is not positive.
     template <typename Scalar>
-    [[nodiscard]] static std::optional<Factorization> make(const BlockMatrix<Dim, Scalar>& A,
+    [[nodiscard]] static std::optional<Factorization> make(const BlockKernels& kernels,
+                                                           const BlockMatrix<Dim, Scalar>& A,
                                                            const Elimination& elimination);
 
     /// A^-1 b.
@@ -28,9 +30,12 @@ public:
 private:
     explicit Factorization(const Elimination& elimination) : elimination_(&elimination) {}
 
+    // Below the diagonal block of a supernode.
+    [[nodiscard]] auto rows_below(std::size_t s) const;
+
     const Elimination* elimination_;
     std::vector<Eigen::MatrixXd>
-        panels_;  // of each supernode: its columns, its rows and those below
+        panels_;  // of each supernode: its columns, its rows, those below, and room
 };
 
 }  // namespace pent::simulator

@@ -1,9 +1,11 @@
 #include "linear/conjugate_gradients.h"
+#include "linear/elimination.h"
 #include "linear/linear_solver.h"
 #include "linear/preconditioner.h"
 
 #include <pent/dimensions.h>
 
+#include <limits>
 #include <numeric>
 #include <optional>
 #include <utility>
@@ -13,6 +15,20 @@
 namespace pent::simulator {
 
 namespace {
+
+// What iterations take, and factors: measured, in ns, of small bodies; only ratios count. An
+// iteration is so much, and so much for each number of the matrix; factors are so much, and so much
+// for each supernode, and for each product of two numbers.
+constexpr double kIteration = 15'000;
+constexpr double kNumber = 0.25;
+constexpr double kFactors = 100'000;
+constexpr double kSupernode = 1200;
+constexpr double kProduct = 0.25;
+
+// Factors of fewer rows gain less than 0.1 ms, and nobody looks at those of more, since they take
+// one thread.
+constexpr std::int64_t kFewestRows = 64;
+constexpr std::int64_t kMostRows = 4096;
 
 template <int Dim>
 class IterativeSolver final : public LinearSolver<Dim> {
@@ -56,9 +72,19 @@ public:
                     preconditioner = multilevel(*workers_, *kernels_, matrix, *around.hierarchy,
                                                 positions, std::move(preconditioner));
                 }
-                return iteration_.solve(matrix, *preconditioner, system.right(), options,
-                                        std::move(guess),
-                                        {dofs_.owners.sharing, around.exchange.get()});
+                const bool may_factor = kind_ == PreconditionerKind::RigidModes && !has_coupling
+                                        && dofs_.owners.sharing == nullptr;
+                LinearSolution<Dim> solution = iteration_.solve(
+                    matrix, *preconditioner, system.right(), options, std::move(guess),
+                    {dofs_.owners.sharing, around.exchange.get()}, [&] {
+                        return may_factor ? cost_of_factors(matrix.pattern())
+                                          : std::numeric_limits<double>::infinity();
+                    });
+                if (solution.report.is_slow) {
+                    solution = finish(matrix, *preconditioner, system.right(), options,
+                                      std::move(solution));
+                }
+                return solution;
             },
             system.matrix());
     }
@@ -69,6 +95,37 @@ private:
         std::unique_ptr<GhostExchange> exchange;  // null where dofs are not shared
         std::unique_ptr<Hierarchy> hierarchy;     // for rigid modes
     };
+
+    // In iterations, where a matrix has no coupling.
+    [[nodiscard]] double cost_of_factors(const BlockPattern& pattern) {
+        if (pattern.rows() < kFewestRows || pattern.rows() > kMostRows) {
+            return std::numeric_limits<double>::infinity();
+        }
+        if (!elimination_) {
+            elimination_ = eliminate(link_dofs(pattern), dofs_.rest);
+        }
+        const double products = Dim * Dim * Dim * elimination_->products;
+        const auto numbers = static_cast<double>(Dim * Dim * pattern.blocks());
+        return (kFactors + kSupernode * static_cast<double>(elimination_->supernodes.size())
+                + kProduct * products)
+               / (kIteration + kNumber * numbers);
+    }
+
+    // By factors, which need one iteration; levels go on with a matrix of which rounding has made a
+    // pivot negative.
+    template <typename Scalar>
+    [[nodiscard]] LinearSolution<Dim> finish(const BlockMatrix<Dim, Scalar>& A,
+                                             const Preconditioner<Dim>& levels,
+                                             const BlockVector<Dim>& b,
+                                             LinearSolveOptions options,
+                                             LinearSolution<Dim> so_far) {
+        const auto exact = exact_inverse(*kernels_, A, *elimination_);
+        options.max_iterations -= so_far.report.iterations;
+        LinearSolution<Dim> solution =
+            iteration_.solve(A, exact ? *exact : levels, b, options, std::move(so_far.x));
+        solution.report.iterations += so_far.report.iterations;
+        return solution;
+    }
 
     [[nodiscard]] bool any(bool is_so) const {
         return dofs_.owners.sharing != nullptr ? dofs_.owners.sharing->any(is_so) : is_so;
@@ -108,9 +165,10 @@ private:
     const Workers* workers_;
     const BlockKernels* kernels_;
     PreconditionerKind kind_;
-    DofGeometry<Dim> dofs_;               // with columns that are solved together
-    std::vector<Aggregates> aggregates_;  // from the first solve on
-    std::optional<Surroundings> plain_;   // from the first without a coupling on
+    DofGeometry<Dim> dofs_;                   // with columns that are solved together
+    std::vector<Aggregates> aggregates_;      // from the first solve on
+    std::optional<Surroundings> plain_;       // from the first without a coupling on
+    std::optional<Elimination> elimination_;  // of plain blocks, from when they are looked at on
     ConjugateGradients<Dim> iteration_;
 };
 

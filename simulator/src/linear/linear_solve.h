@@ -20,6 +20,7 @@ struct LinearSolveReport {
                                    ///< which that is more; 0 if b = 0.
     bool has_converged = false;    ///< residual <= tolerance.
     bool has_broken_down = false;  ///< A direction p with p . A p <= 0 or not finite turned up.
+    bool is_slow = false;          ///< It ended since what else there was would take less.
 };
 
 template <int Dim>

@@ -51,6 +51,9 @@ struct DofGeometry {
 /// Preconditioned conjugate gradients. Where dofs are shared all ranks solve together, and the
 /// solution has the rows of this rank.
 ///
+/// With rigid modes, where iterations go on for longer than it takes to factor the matrix, as those
+/// of slender stiff bodies, it is factored: one iteration more is then the last.
+///
 /// @param workers, kernels  Must outlive the solver.
 template <int Dim>
 [[nodiscard]] std::unique_ptr<LinearSolver<Dim>> make_iterative_solver(
@@ -62,9 +65,11 @@ template <int Dim>
 /// Sparse L L^T in double, see Factorization. The residual is that of rounding; a pivot that is not
 /// positive counts as breakdown.
 ///
-/// @param rest  Dim x dofs, m.
+/// @param kernels  Must outlive the solver.
+/// @param rest     Dim x dofs, m.
 template <int Dim>
-[[nodiscard]] std::unique_ptr<LinearSolver<Dim>> make_direct_solver(BlockVector<Dim> rest);
+[[nodiscard]] std::unique_ptr<LinearSolver<Dim>> make_direct_solver(const BlockKernels& kernels,
+                                                                    BlockVector<Dim> rest);
 
 /// Memory that a direct solve takes, where nothing touches.
 template <int Dim>

@@ -2,6 +2,7 @@
 
 #include "linear/block_matrix.h"
 #include "linear/dof_map.h"
+#include "linear/elimination.h"
 #include "linear/hierarchy.h"
 
 #include <pent/simulator/solver_options.h>
@@ -77,5 +78,14 @@ template <int Dim, typename Scalar>
     const Hierarchy& hierarchy,
     const BlockVector<Dim>& positions,
     std::unique_ptr<Preconditioner<Dim>> smoother);
+
+/// B = A^-1 by the factors of a matrix without a coupling, so that one iteration does.
+///
+/// @param elimination  Of the links of A; must outlive the result.
+/// @return             Null where a pivot is not positive.
+template <int Dim, typename Scalar>
+[[nodiscard]] std::unique_ptr<Preconditioner<Dim>> exact_inverse(const BlockKernels& kernels,
+                                                                 const BlockMatrix<Dim, Scalar>& A,
+                                                                 const Elimination& elimination);
 
 }  // namespace pent::simulator

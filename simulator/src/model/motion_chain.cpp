@@ -39,6 +39,15 @@ void MotionChain<Dim>::move(Vector<Dim>& point, Vector<Dim>* velocity) const {
     }
 }
 
+template <int Dim>
+Matrix<Dim> MotionChain<Dim>::rotation() const {
+    Matrix<Dim> rotation = Matrix<Dim>::Identity();
+    for (const Link& link : links_) {
+        rotation = (link.pose.rotation * rotation).eval();
+    }
+    return rotation;
+}
+
 #define PENT_INSTANTIATE(Dim)                                                         \
     template std::vector<CenteredMotion<Dim>> center<Dim>(const std::vector<Motion>&, \
                                                           const Vector<Dim>&);        \

@@ -31,6 +31,9 @@ public:
     /// keeps the point to the bit.
     void move(Vector<Dim>& point, Vector<Dim>* velocity) const;
 
+    /// How they have turned whatever goes with them.
+    [[nodiscard]] Matrix<Dim> rotation() const;
+
 private:
     struct Link {
         Pose<Dim> pose;

@@ -39,7 +39,7 @@ struct FieldMover {
     }
     void operator()(const char* /*name*/, Matrix<Dim>& axes, ShapeField /*kind*/) const {
         axes = (map.rotation * axes).eval();
-        for (int axis = 0; axis < Dim; ++axis) {  // far from the origin the map is rounded
+        for (int axis = 0; axis < Dim; ++axis) {  // right angles, to the last bit
             for (int before = 0; before < axis; ++before) {
                 axes.col(axis) -= axes.col(before).dot(axes.col(axis)) * axes.col(before);
             }
@@ -94,13 +94,8 @@ template <int Dim>
 typename ObstacleMotions<Dim>::RigidMap ObstacleMotions<Dim>::map_at(std::size_t obstacle,
                                                                      double time) const {
     const MotionChain<Dim> chain(obstacles_[obstacle].motions, time);
-    RigidMap map{Matrix<Dim>::Identity(), Vector<Dim>::Zero()};
+    RigidMap map{chain.rotation(), Vector<Dim>::Zero()};
     chain.move(map.shift, nullptr);
-    for (int axis = 0; axis < Dim; ++axis) {
-        Vector<Dim> end = Vector<Dim>::Unit(axis);
-        chain.move(end, nullptr);
-        map.rotation.col(axis) = end - map.shift;
-    }
     return map;
 }
 

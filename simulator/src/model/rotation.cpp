@@ -84,7 +84,10 @@ struct Course {
 template <int Dim>
 Course<Dim> steady_course(const Motion& motion, double time) {
     const double elapsed = std::clamp(time, motion.from, motion.to) - motion.from;
-    const bool is_moving = time >= motion.from && !is_behind(time, motion.to);
+    // As the step did that ends here, so that of two motions one after the other it is the first;
+    // no step ends at 0.
+    const bool has_begun = time == 0 ? motion.from == 0 : is_behind(time, motion.from);
+    const bool is_moving = has_begun && !is_behind(time, motion.to);
     const Vector<Dim> translate = motion.translate;
     Course<Dim> course;
     course.shift = elapsed * translate;

@@ -273,7 +273,13 @@ template <int Dim>
 std::vector<bool> mark_cells(const SimplexMesh<Dim>& mesh,
                              const std::vector<Selection>& select,
                              const std::string& where) {
-    const Positions<Dim> points = centers(mesh);
+    // Labels and layers ask for no place, and a body may have a thousand regions by their labels.
+    const bool needs_places =
+        std::any_of(select.begin(), select.end(), [](const Selection& selection) {
+            return !std::holds_alternative<RegionSelection>(selection)
+                   && !std::holds_alternative<LayerSelection>(selection);
+        });
+    const Positions<Dim> points = needs_places ? centers(mesh) : Positions<Dim>();
     Marks marks(static_cast<std::size_t>(mesh.cell_count()), false);
     for (const Selection& selection : select) {
         std::visit(CellMarker<Dim>{{mesh, points, where, marks}}, selection);

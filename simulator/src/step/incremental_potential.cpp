@@ -114,7 +114,7 @@ DofOwners IncrementalPotential<Dim>::find_owners() const {
 template <int Dim>
 void IncrementalPotential<Dim>::set_up_solver() {
     if (options_.linear == LinearSolverKind::Direct) {
-        solver_ = make_direct_solver<Dim>(at_dofs(*rows_, bodies_->rest()));
+        solver_ = make_direct_solver<Dim>(kernels_->blocks, at_dofs(*rows_, bodies_->rest()));
     } else {
         solver_ = make_iterative_solver<Dim>(
             *workers_, kernels_->blocks, options_.preconditioner,
