@@ -1,5 +1,6 @@
-# The installed package: find_package(pent) gives pent::format, pent::exchange, pent::contact,
-# pent::simulator and pent::runs, the permissive part a host program links. The mesher and the viewer are installed as programs only.
+# The installed package: find_package(pent) gives pent::format, pent::exchange, pent::contact, pent::simulator and
+# pent::runs, the permissive part a host program links, and pent::plugin, the shared library for hosts in C. The mesher
+# and the viewer are installed as programs only.
 
 include(CMakePackageConfigHelpers)
 install(TARGETS pent_format pent_exchange pent_contact pent_simulator pent_runs EXPORT pentTargets

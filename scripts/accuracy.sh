@@ -5,6 +5,7 @@
 #
 #   scripts/accuracy.sh [OUTPUT FOLDER]      default: out/accuracy; ten minutes on a quiet machine
 set -euo pipefail
+. "$(dirname "$0")/help.sh"
 out=$(realpath -m "${1:-$(dirname "$0")/../out/accuracy}")
 cd "$(dirname "$0")/.."
 

@@ -124,7 +124,10 @@ def vtu(mesh, t):
 
 
 def main():
-    if len(sys.argv) not in (2, 3):
+    if sys.argv[1:] in (["-h"], ["--help"]):
+        print(__doc__)
+        return
+    if len(sys.argv) not in (2, 3) or sys.argv[1].startswith("-"):
         sys.exit("beating_heart: expected a folder and, if you like, a number of frames")
     folder = pathlib.Path(sys.argv[1])
     frames = int(sys.argv[2]) if len(sys.argv) == 3 else 24

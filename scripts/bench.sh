@@ -6,6 +6,7 @@
 #
 #   scripts/bench.sh [--rounds N] [--threads N] [--no-growth]
 set -euo pipefail
+. "$(dirname "$0")/help.sh"
 cd "$(dirname "$0")/.."
 
 build=build/bench

@@ -9,6 +9,7 @@
 # GCOVR_EXCL, with the reason beside them. The compiler puts functions into their callers after it has begun
 # to count (-fno-early-inlining), not before; a few of templates are said to be never called all the same.
 set -euo pipefail
+. "$(dirname "$0")/help.sh"
 cd "$(dirname "$0")/.."
 
 scripts/setup.sh --tools

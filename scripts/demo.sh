@@ -5,6 +5,7 @@
 #
 #   scripts/demo.sh [OUTPUT FOLDER]      default: out/demo
 set -euo pipefail
+. "$(dirname "$0")/help.sh"
 start=$SECONDS
 out=$(realpath -m "${1:-$(dirname "$0")/../out/demo}")
 cd "$(dirname "$0")/.."

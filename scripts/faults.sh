@@ -5,6 +5,7 @@
 #
 #   scripts/faults.sh [ROUNDS]      default: 20, which is 100 kills
 set -euo pipefail
+. "$(dirname "$0")/help.sh"
 cd "$(dirname "$0")/.."
 
 scripts/setup.sh

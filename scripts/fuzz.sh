@@ -7,6 +7,7 @@
 # Exit code 1 if a reader breaks; the input that broke it is then in build/fuzz/found: move it to
 # tests/fuzz/corpus/READER, where the tests replay it, and mend the reader.
 set -euo pipefail
+. "$(dirname "$0")/help.sh"
 cd "$(dirname "$0")/.."
 
 seconds=${1:-60}

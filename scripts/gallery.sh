@@ -9,6 +9,7 @@
 #
 # The results are in out/gallery; docs/gallery.md shows them.
 set -euo pipefail
+. "$(dirname "$0")/help.sh"
 cd "$(dirname "$0")/.."
 . scripts/scene_steps.sh
 

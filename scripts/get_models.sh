@@ -5,6 +5,7 @@
 #
 #   scripts/get_models.sh
 set -euo pipefail
+. "$(dirname "$0")/help.sh"
 cd "$(dirname "$0")/.."
 target=data/models/research
 

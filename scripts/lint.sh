@@ -4,6 +4,7 @@
 #
 #   scripts/lint.sh [--tidy [REVISION]]      default revision: HEAD~1
 set -euo pipefail
+. "$(dirname "$0")/help.sh"
 cd "$(dirname "$0")/.."
 
 scripts/setup.sh --tools

@@ -6,6 +6,7 @@
 # The page of pent-view is in them if scripts/web.sh has built it. DEBFULLNAME and DEBEMAIL, as Debian's own tools have
 # them, are who maintains the packages for Debian.
 set -euo pipefail
+. "$(dirname "$0")/help.sh"
 cd "$(dirname "$0")/.."
 
 scripts/setup.sh

@@ -9,6 +9,7 @@
 # that was interrupted goes on. The bunny and the armadillos want scripts/get_models.sh once; without them
 # our own octopus and alien stand in.
 set -euo pipefail
+. "$(dirname "$0")/help.sh"
 cd "$(dirname "$0")/.."
 . scripts/scene_steps.sh
 
@@ -18,7 +19,6 @@ while [ $# -gt 0 ]; do
     case $1 in
         --quick) frames=3 out=out/paper-quick ;;
         --threads) threads=${2:?paper: --threads needs a number}; shift ;;
-        -h | --help) sed -n '2,/^set/{/^set/d;s/^# \{0,1\}//p}' "$0"; exit 0 ;;
         *)
             [[ " $all " = *" $1 "* ]] || {
                 echo "paper: no scene is called \"$1\"; expected one of $all, --quick or --threads N" >&2

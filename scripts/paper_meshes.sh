@@ -6,6 +6,7 @@
 #
 # The bunny and the armadillos want scripts/get_models.sh once; without it they are left out.
 set -euo pipefail
+. "$(dirname "$0")/help.sh"
 cd "$(dirname "$0")/.."
 . scripts/scene_steps.sh
 

@@ -7,6 +7,7 @@
 #
 # PRESET names the build to use (release), which must have PENT_BUILD_DISTRIBUTED.
 set -euo pipefail
+. "$(dirname "$0")/help.sh"
 cd "$(dirname "$0")/.."
 
 bin=$PWD/build/${PRESET:-release}/bin

@@ -10,6 +10,7 @@
 #
 #   scripts/ranks_equality.sh [PROGRAMS [SCENE...]]     PROGRAMS: build/release/bin
 set -euo pipefail
+. "$(dirname "$0")/help.sh"
 cd "$(dirname "$0")/.."
 bin=${1:-build/release/bin}
 for program in pent-mesh pent-sim pent-sim-mpi ranks_equality; do

@@ -7,6 +7,7 @@
 # Exit code 1 if a scene breaks a law; it is then in build/scene_fuzz/found, shrunk, with what was seen. Mend the
 # defect and move its scene.toml to tests/scene_fuzz/samples/NAME.toml, where the tests run it.
 set -euo pipefail
+. "$(dirname "$0")/help.sh"
 cd "$(dirname "$0")/.."
 
 seconds=${1:-60}

@@ -15,6 +15,7 @@
 #
 # Works as root or with sudo. Safe to run again: when nothing is missing it does nothing.
 set -euo pipefail
+. "$(dirname "$0")/help.sh"
 
 with_tools=false
 with_portable=false

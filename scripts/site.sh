@@ -7,6 +7,7 @@
 #
 # The playground is in it if scripts/web.sh has built it.
 set -euo pipefail
+. "$(dirname "$0")/help.sh"
 cd "$(dirname "$0")/.."
 
 scripts/setup.sh

@@ -3,6 +3,7 @@
 #
 #   scripts/stability.sh
 set -euo pipefail
+. "$(dirname "$0")/help.sh"
 cd "$(dirname "$0")/.."
 
 scripts/setup.sh

@@ -6,6 +6,7 @@
 #
 #   scripts/stress.sh [--fine N]
 set -euo pipefail
+. "$(dirname "$0")/help.sh"
 cd "$(dirname "$0")/.."
 
 build=build/bench

@@ -37,6 +37,7 @@ run_job() {
 
 case ${1:-} in
     --task | --collect) run_job "$@" ;;
+    -h | --help) sed -n '2,/^[^#]/{/^[^#]/d;s/^# \{0,1\}//p}' "$0"; exit 0 ;;  # without help.sh: it is installed alone
     "" | -*) echo "study_slurm: expected the folder of a study: study_slurm.sh STUDY [OPTIONS OF SBATCH]" >&2; exit 2 ;;
 esac
 

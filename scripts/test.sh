@@ -23,6 +23,7 @@
 #                                             seed, --threads, --portable, --web, --python, --hosts, --distributed and scripts/site.sh
 #                                             (long: each builds anew)
 set -euo pipefail
+. "$(dirname "$0")/help.sh"
 cd "$(dirname "$0")/.."
 
 run_preset() {  # PRESET [ARGUMENTS FOR CTEST]

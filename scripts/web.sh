@@ -8,6 +8,7 @@
 #
 # Installs node, npm and emscripten if they are missing, and the packages of web/package-lock.json.
 set -euo pipefail
+. "$(dirname "$0")/help.sh"
 cd "$(dirname "$0")/.."
 
 case ${1:-} in

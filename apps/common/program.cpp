@@ -1,6 +1,7 @@
 #include "program.h"
 
 #include "build_info.h"
+#include "values.h"
 
 #include <pent/error.h>
 #include <pent/nearest_name.h>
@@ -76,11 +77,21 @@ std::string one_line(std::string text) {
     return text;
 }
 
-// What an option wants whose value is no number: "--layers: found "many", expected a whole number",
+// Those of a program, groups of which one is needed included.
+std::vector<const CLI::Option*> options_of(const CLI::App& cli) {
+    std::vector<const CLI::Option*> options = cli.get_options();
+    for (const CLI::App* group : cli.get_subcommands([](const CLI::App*) { return true; })) {
+        const std::vector<const CLI::Option*> more = options_of(*group);
+        options.insert(options.end(), more.begin(), more.end());
+    }
+    return options;
+}
+
+// What an option wants whose value is no number: "--layers: found "many"; expected a whole number",
 // or "" if another option is meant.
 std::string misread_value(const CLI::App& cli, const CLI::ConversionError& error) {
     const std::string text = error.what();  // "Could not convert: --layers = many"
-    for (const CLI::Option* option : cli.get_options()) {
+    for (const CLI::Option* option : options_of(cli)) {
         const std::string before = option->get_name() + " = ";
         const std::size_t at = text.find(before);
         if (at == std::string::npos) {
@@ -88,9 +99,10 @@ std::string misread_value(const CLI::App& cli, const CLI::ConversionError& error
         }
         const std::string type = option->get_type_name();
         const auto is_of = [&](const char* name) { return type.find(name) != std::string::npos; };
-        return option->get_name() + ": found \"" + text.substr(at + before.size()) + "\", expected "
+        return option->get_name() + ": found \"" + text.substr(at + before.size()) + "\"; expected "
                + (is_of("UINT") || is_of("INT") ? "a whole number"
                   : is_of("FLOAT")              ? "a number"
+                  : type.empty()                ? "nothing behind it"
                                                 : type);
     }
     return "";
@@ -104,7 +116,7 @@ std::string unknown_option(const CLI::App& cli) {
         }
         const std::string unknown = word.substr(0, word.find('='));
         std::vector<std::string> known;
-        for (const CLI::Option* option : cli.get_options()) {
+        for (const CLI::Option* option : options_of(cli)) {
             known.push_back(option->get_name());
         }
         const std::string best = nearest_name(unknown, known);
@@ -131,7 +143,7 @@ Program::Program(std::string name, const std::string& description, const std::st
     cli_.set_version_flag("--version", name_and_version() + "\n" + build_info(),
                           "Print version, commit and features of this build, and exit");
     cli_.add_option("--threads", common_.threads, "Threads to use; default: the number of cores")
-        ->check(CLI::Range(1, 1024));
+        ->check(whole_number(1, 1024));
     cli_.add_flag("--quiet", common_.quiet, "Print nothing but errors");
     cli_.add_option("--json", common_.json, "Write a machine-readable report to this file")
         ->type_name("FILE");

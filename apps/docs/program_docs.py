@@ -24,6 +24,7 @@ class Option:
     value: str  # what stands behind it, as "FILE"; "" for a flag
     text: str
     section: str
+    company: str = ""  # what it goes with and what not, as " (needs --box)"
 
 
 @dataclasses.dataclass
@@ -41,7 +42,8 @@ class Help:
 
 HEADING = re.compile(r"^ *(?:(\w[\w ]*):|\[Option Group: (.*)\])$")
 ENTRY = re.compile(r"^( +)((?:-\w,)?--?[a-z][\w-]*|[a-z][\w-]*)(?: +(.*))?$")
-NOTES = re.compile(r" ?(?:REQUIRED|Excludes:(?: --[\w-]+)+|x \d+)(?= |$)")
+NOTES = re.compile(r" ?(?:REQUIRED|x \d+)(?= |$)")
+COMPANY = re.compile(r" ?\b(Needs|Excludes):((?: (?!Needs:|Excludes:)[\w-]+)+)")
 NUMBER = re.compile(r"(?:\w+:)?(INT|UINT|FLOAT)(?::\w+)?(?: in \[(.*)\])?(?:=(.*))?$")
 CONTINUED = re.compile(r"^ {28,}\S")
 COLUMN = 28  # where texts begin behind the indent; those without room in the line below
@@ -55,14 +57,18 @@ def entry_of(line: str, has_text: bool, section: str) -> Option | None:
     column = len(match[1]) + COLUMN if has_text else len(line)
     head, text = line[:column], line[column:]
     names, _, value = head.strip().partition(" ")
-    value = NOTES.sub("", value).strip()
+    others = [(kind, names.split()) for kind, names in COMPANY.findall(value)]
+    company = [
+        ("needs " if kind == "Needs" else "not with ") + ", ".join(names) for kind, names in others
+    ]
+    value = NOTES.sub("", COMPANY.sub("", value)).strip()
     if number := NUMBER.match(value):  # as CLI11 writes "INT:INT in [1 - 9]=4"
         kind = "INTEGER" if "INT" in number[1] else "NUMBER"
         between = f" from {number[2].replace(' - ', ' to ')}" if number[2] else ""
         value = kind + between + (f", default {number[3]}" if number[3] else "")
-    elif chosen := re.match(r"\w+:\{([\d,]+)\}=(\w+)$", value):
-        value = f"{chosen[1].replace(',', '|')} [{chosen[2]}]"
-    return Option(names.split(","), value, text, section if names[0] == "-" else "Arguments")
+    section = section if names[0] == "-" else "Arguments"
+    told = f" ({'; '.join(company)})" if company else ""
+    return Option(names.split(","), value, text, section, told)
 
 
 def parse(name: str, text: str, version: str) -> Help:
@@ -107,7 +113,7 @@ def man_page(help: Help) -> str:
             lines.append(f".SH {section.upper()}")
         names = ", ".join(rf"\fB{roff(spelled)}\fR" for spelled in option.names)
         value = rf" \fI{roff(option.value)}\fR" if option.value else ""
-        lines.append(f".TP\n{names}{value}\n{roff(option.text)}")
+        lines.append(f".TP\n{names}{value}\n{roff(option.text + option.company)}")
     lines.append(f".SH EXAMPLE\n.nf\n{roff(help.example)}\n.fi")
     lines.append(".SH EXIT STATUS\n0 finished, 1 refused, 2 wrong usage, 3 stopped or diverged")
     return "\n".join(lines) + "\n"
@@ -121,8 +127,6 @@ def choices(option: Option) -> list[str]:
 
 def takes_file(option: Option) -> bool:
     """Whether what stands behind an option is the name of a file or folder."""
-    if option.value == "TEXT":
-        return re.search(r"\b([Ff]ile|[Ff]older)\b", option.text) is not None
     return re.match(r"(FILE|OUT|RUN|PAGE)\b", option.value) is not None
 
 

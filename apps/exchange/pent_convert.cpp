@@ -1,5 +1,6 @@
 #include "common/program.h"
 
+#include <pent/counted.h>
 #include <pent/error.h>
 #include <pent/exchange/exchange.h>
 #include <pent/formatted.h>
@@ -68,15 +69,16 @@ std::vector<exchange::FramePoints> read_frames(const Arguments& arguments) {
 
 void say_surface(Program& program, const exchange::TetSurface& surface) {
     const exchange::SurfaceCheck check = exchange::check(surface);
-    const std::string size = std::to_string(surface.points.cols()) + " points, "
-                             + std::to_string(surface.tetrahedra.cols()) + " tetrahedra";
+    const std::string size = counted(surface.points.cols(), "point", "points") + ", "
+                             + counted(surface.tetrahedra.cols(), "tetrahedron", "tetrahedra");
     if (check.is_oriented()) {
         program.say("boundary   " + size + ", closed, around "
                     + formatted("%.6g m^4", exchange::enclosed_hypervolume(surface)));
         program.report()["hypervolume"] = exchange::enclosed_hypervolume(surface);
     } else {
-        program.say("boundary   " + size + ", not closed: " + std::to_string(check.open)
-                    + " open triangles, " + std::to_string(check.overfull) + " of more than two");
+        program.say("boundary   " + size
+                    + ", not closed: " + counted(check.open, "open triangle", "open triangles")
+                    + ", " + std::to_string(check.overfull) + " of more than two");
     }
     program.report()["points"] = surface.points.cols();
     program.report()["tetrahedra"] = surface.tetrahedra.cols();
@@ -86,8 +88,8 @@ void say_surface(Program& program, const exchange::TetSurface& surface) {
 
 void say_body(Program& program, const exchange::Body& body, const exchange::Format& format) {
     const SimplexMesh<4>& mesh = body.mesh;
-    program.say("body       " + std::to_string(mesh.vertex_count()) + " vertices, "
-                + std::to_string(mesh.cell_count()) + " pentachora, "
+    program.say("body       " + counted(mesh.vertex_count(), "vertex", "vertices") + ", "
+                + counted(mesh.cell_count(), "pentachoron", "pentachora") + ", "
                 + formatted("%.6g m^4", total_volume(mesh)));
     program.report()["vertices"] = mesh.vertex_count();
     program.report()["cells"] = mesh.cell_count();

@@ -2,6 +2,8 @@
 
 #include "mesh_options.h"
 
+#include "common/values.h"
+
 #include <pent/error.h>
 #include <pent/input_path.h>
 
@@ -19,27 +21,32 @@ using mesher::Generator;
 using mesher::Repair;
 using mesher::VertexOrder;
 
+constexpr std::int64_t kMostCells = std::int64_t{1} << 31;
+
 // Makes an option take one word of a few; the first one is what it is by default.
 template <typename Value>
 CLI::Option* choose(CLI::Option* option,
                     const std::vector<std::pair<std::string, Value>>& choices) {
+    std::vector<std::string> words;
     std::string text;
     for (const auto& [word, value] : choices) {
+        words.push_back(word);
         text += (text.empty() ? "" : "|") + word;
     }
-    return option->transform(CLI::CheckedTransformer(choices, CLI::ignore_case))
+    return option->transform(CLI::Transformer(choices))
+        ->transform(one_of(words))  // before the one above
         ->option_text(text + " [" + choices.front().first + "]");
 }
 
 std::vector<CLI::Option*> add_shapes(CLI::Option_group& input, MeshArguments& arguments) {
     CLI::Option* sphere =
         input.add_option("--sphere", arguments.sphere, "A surface of 20 N^2 triangles")
-            ->check(CLI::Range(1, 1000))
+            ->check(whole_number(1, 1000))
             ->type_name("N");
     CLI::Option* ball =
         input
             .add_option("--ball", arguments.ball, "20 N^2 tetrahedra around the center of a sphere")
-            ->check(CLI::Range(1, 1000))
+            ->check(whole_number(1, 1000))
             ->type_name("N");
     CLI::Option* box =
         input
@@ -59,8 +66,7 @@ void add_placement(CLI::App& cli,
     CLI::Option* format =
         cli.add_option("--format", arguments.request.format,
                        "Read the input as this, whatever its name; needed for standard input")
-            ->check(CLI::IsMember({"obj", "off", "ply", "stl", "mesh", "msh", "vtk", "vtu", "tobj"},
-                                  CLI::ignore_case))
+            ->transform(one_of({"obj", "off", "ply", "stl", "mesh", "msh", "vtk", "vtu", "tobj"}))
             ->option_text("obj|off|ply|stl|mesh|msh|vtk|vtu|tobj")
             ->group(group);
     CLI::Option* unit =
@@ -69,7 +75,7 @@ void add_placement(CLI::App& cli,
             ->group(group);
     CLI::Option* scale =
         cli.add_option("--scale", arguments.scale, "Multiply the file's coordinates by this")
-            ->check(CLI::PositiveNumber)
+            ->check(positive_number())
             ->group(group);
     CLI::Option* regions =
         cli.add_option("--region-array", arguments.request.region_array,
@@ -107,7 +113,7 @@ void add_input(CLI::App& cli, MeshArguments& arguments) {
                    "Radius of a sphere or ball, edge or edges x,y,z,w of a box (m)")
         ->delimiter(',')
         ->expected(1, 4)
-        ->check(CLI::PositiveNumber)
+        ->check(positive_number())
         ->excludes(file)
         ->default_str("1");
     choose<CubeCut>(cli.add_option("--cut", arguments.cut,
@@ -129,7 +135,7 @@ void add_image(CLI::App& cli, MeshArguments& arguments) {
                    "Between samples along x,y,z,w (m); default: as in the file")
         ->delimiter(',')
         ->expected(4)
-        ->check(CLI::PositiveNumber)
+        ->check(positive_number())
         ->type_name("X,Y,Z,W")
         ->group(group);
 }
@@ -147,7 +153,7 @@ void add_surface(CLI::App& cli, mesher::BodyRequest& request) {
         ->group("Surface");
     cli.add_option("--wrap-distance", request.repair.wrap_distance,
                    "Largest distance of a wrap from the surface, over its diagonal")
-        ->check(CLI::Range(1e-4, 1.0))
+        ->check(number(1e-4, 1.0))
         ->capture_default_str()
         ->group("Surface");
 }
@@ -157,17 +163,17 @@ void add_resolution(CLI::App& cli, MeshArguments& arguments) {
     const auto group = "Resolution";
     CLI::Option* triangles = cli.add_option("--surface-triangles", request.surface_triangles,
                                             "Refine or coarsen the surface to this many triangles")
-                                 ->check(CLI::Range(std::int64_t{4}, std::int64_t{1} << 31))
+                                 ->check(whole_number(4, kMostCells))
                                  ->group(group);
     CLI::Option* edge = cli.add_option("--edge-length", request.edge_length,
                                        "Aim at edges of this length (m), on the surface and inside")
-                            ->check(CLI::PositiveNumber)
+                            ->check(positive_number())
                             ->excludes(triangles)
                             ->group(group);
     add_size_field_options(cli, arguments, edge);
     cli.add_option("--target-pentachora", request.target_cells,
                    "Aim at this many pentachora, within 2%")
-        ->check(CLI::Range(std::int64_t{100}, std::int64_t{1} << 31))
+        ->check(whole_number(100, kMostCells))
         ->excludes(edge)
         ->group(group);
     choose<Generator>(
@@ -177,7 +183,7 @@ void add_resolution(CLI::App& cli, MeshArguments& arguments) {
         ->group(group);
     cli.add_option("--radius-edge-ratio", request.tetrahedra.radius_edge_ratio,
                    "TetGen: bound for circumradius over shortest edge; lower gives more cells")
-        ->check(CLI::Range(1.05, 10.0))
+        ->check(number(1.05, 10.0))
         ->capture_default_str()
         ->group(group);
     cli.add_flag("--subdivide-surface", arguments.subdivide_surface,
@@ -185,7 +191,7 @@ void add_resolution(CLI::App& cli, MeshArguments& arguments) {
         ->group(group);
     cli.add_option("--subdivide", request.subdivide,
                    "Cut every edge of the body in K parts: K^4 times the pentachora")
-        ->check(CLI::Range(1, 64))
+        ->check(whole_number(1, 64))
         ->type_name("K")
         ->group(group);
     cli.add_flag(
@@ -216,19 +222,19 @@ void add_extrusion(CLI::App& cli, MeshArguments& arguments) {
     CLI::Option* layers =
         cli.add_option("--layers", extrusion.layers,
                        "Layers of pentachora; default: as many as give the best shapes")
-            ->check(CLI::Range(1, 1'000'000))
+            ->check(whole_number(1, 1'000'000))
             ->group(group);
     CLI::Option* grade =
         cli.add_option("--grade", extrusion.grade,
                        "Each layer this many times as high as its neighbor towards w = 0")
-            ->check(CLI::Range(1.0, 100.0))
+            ->check(number(1.0, 100.0))
             ->capture_default_str()
             ->group(group);
     cli.add_option("--layer-heights", extrusion.layer_heights,
                    "Instead: heights of the layers from w = 0 outward (m), to both sides of it; "
                    "thickness, profile and the like are shared out in proportion")
         ->delimiter(',')
-        ->check(CLI::PositiveNumber)
+        ->check(positive_number())
         ->type_name("H,H,...")
         ->excludes(layers)
         ->excludes(grade)
@@ -280,6 +286,11 @@ decltype(mesher::BodyRequest::input) input_of(const MeshArguments& arguments) {
     if (arguments.box.empty()) {
         return arguments.input;
     }
+    if (arguments.size.size() != 1 && arguments.size.size() != arguments.box.size()) {
+        throw Error("--size: found " + std::to_string(arguments.size.size())
+                    + " numbers; expected one, or one for each of the "
+                    + std::to_string(arguments.box.size()) + " axes of --box");
+    }
     mesher::BoxShape box{arguments.box, {}, arguments.cut};
     for (std::size_t axis = 0; axis < arguments.box.size(); ++axis) {
         box.size.push_back(arguments.size[std::min(axis, arguments.size.size() - 1)]);
@@ -309,26 +320,26 @@ void add_options(CLI::App& cli, MeshArguments& arguments) {
     cli.add_option("-o,--output", arguments.output, "Where the mesh goes, a .pent file")
         ->required()
         ->type_name("FILE");
-    cli.add_option(
-           "--dim", arguments.dim,
-           "Dimension of the mesh: 4; or 3 for tetrahedra as they are, the inside of a surface,"
-           " or a flat triangle mesh extruded along z")
-        ->check(CLI::IsMember({3, 4}))
-        ->capture_default_str();
+    choose<int>(
+        cli.add_option(
+            "--dim", arguments.dim,
+            "Dimension of the mesh: 4; or 3 for tetrahedra as they are, the inside of a surface,"
+            " or a flat triangle mesh extruded along z"),
+        {{"4", 4}, {"3", 3}});
     cli.add_flag("--ascii", arguments.ascii, "Write text instead of binary");
     cli.add_flag("--quality", arguments.show_quality, "Print percentiles and a histogram");
     cli.add_option("--histogram", arguments.histogram, "Draw the histogram into this SVG file")
         ->type_name("FILE");
     cli.add_option("--time-limit", arguments.time_limit, "Give up after this long (s)")
-        ->check(CLI::PositiveNumber)
+        ->check(positive_number())
         ->capture_default_str();
     cli.add_option("--step-limit", arguments.step_limit,
                    "End a step of mending or filling after this long (s), and try the next way")
-        ->check(CLI::Range(1.0, 1e9))
+        ->check(number(1.0, 1e9))
         ->capture_default_str();
     cli.add_option("--memory-limit", arguments.memory_limit,
                    "Use no more memory than this (MiB); default: the machine's")
-        ->check(CLI::Range(1.0, 1e9));
+        ->check(number(1.0, 1e9));
     cli.add_flag("--yes", arguments.yes,
                  "Go ahead without asking where millions of cells, or minutes, are to be expected");
     add_image(cli, arguments);

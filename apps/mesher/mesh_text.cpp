@@ -2,7 +2,9 @@
 
 #include "mesh_text.h"
 
+#include <pent/counted.h>
 #include <pent/formatted.h>
+#include <pent/mesher/quantity_names.h>
 
 #include <vector>
 
@@ -49,13 +51,8 @@ template nlohmann::ordered_json box_json<4>(const Positions<4>&);
 template <int Dim>
 std::string carried_names(const SimplexMesh<Dim>& mesh, const MeshExtras<Dim>& extras) {
     std::string names;
-    for (const std::vector<VertexField>& fields : {extras.vertex_fields, extras.cell_fields}) {
-        for (const VertexField& field : fields) {
-            names += (names.empty() ? "" : ", ") + field.name;
-        }
-    }
-    if (mesh.fibers.cols() > 0) {
-        names += names.empty() ? "fibers" : ", fibers";
+    for (const std::string& name : mesher::quantity_names(mesh, extras)) {
+        names += (names.empty() ? "" : ", ") + name;
     }
     return names;
 }
@@ -63,10 +60,19 @@ std::string carried_names(const SimplexMesh<Dim>& mesh, const MeshExtras<Dim>& e
 template std::string carried_names<3>(const SimplexMesh<3>&, const MeshExtras<3>&);
 template std::string carried_names<4>(const SimplexMesh<4>&, const MeshExtras<4>&);
 
+std::string size_text(std::int64_t vertices, std::int64_t cells, int dim) {
+    return counted(vertices, "vertex", "vertices") + ", "
+           + counted(cells, cell_name(dim), cell_name_plural(dim));
+}
+
+std::string proof_line(std::int64_t inner, std::int64_t boundary) {
+    return "proved     " + counted(inner, "inner facet matches", "inner facets match")
+           + ", boundary of " + counted(boundary, "facet", "facets") + " closed";
+}
+
 std::string straight_line(std::int64_t cells) {
-    return formatted("straight   %lld cell%s of higher order, by their corners alone",
-                     static_cast<long long>(cells),  // NOLINT(google-runtime-int): printf's type
-                     cells == 1 ? "" : "s");
+    return "straight   " + counted(cells, "cell", "cells")
+           + " of higher order, by their corners alone";
 }
 
 std::string quality_line(const mesher::QualityReport& report) {

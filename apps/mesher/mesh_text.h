@@ -18,6 +18,12 @@ template <int Dim>
 template <int Dim>
 [[nodiscard]] nlohmann::ordered_json box_json(const Positions<Dim>& positions);
 
+/// "5 vertices, 1 tetrahedron".
+[[nodiscard]] std::string size_text(std::int64_t vertices, std::int64_t cells, int dim);
+
+/// "proved     4 inner facets match, boundary of 6 facets closed".
+[[nodiscard]] std::string proof_line(std::int64_t inner, std::int64_t boundary);
+
 /// "straight   5 cells of higher order, ...": of how many cells the corners alone were taken.
 [[nodiscard]] std::string straight_line(std::int64_t cells);
 

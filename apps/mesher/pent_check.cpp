@@ -7,6 +7,7 @@
 #include "eigen_table.h"
 #include "mesh_text.h"
 
+#include <pent/counted.h>
 #include <pent/error.h>
 #include <pent/formatted.h>
 #include <pent/mesher/cut_simplex.h>
@@ -23,6 +24,7 @@
 
 namespace {
 
+using pent::counted;
 using pent::formatted;
 using pent::apps::Program;
 using Long = long long;  // NOLINT(google-runtime-int): printf's type
@@ -216,14 +218,12 @@ void check_mesh(Program& program, const std::filesystem::path& path) {
     program.say(formatted("file       dimension %d, %s, by %s, crc32c %08x", Dim,
                           file.info.encoding == pent::Encoding::Ascii ? "ascii" : "binary",
                           file.info.created_by.c_str(), file.info.crc32c));
-    program.say(formatted("mesh       %lld vertices, %lld %s, %.10g m^%d",
-                          static_cast<Long>(file.mesh.vertex_count()),
-                          static_cast<Long>(proof.cells), pent::cell_name_plural(Dim).data(),
-                          proof.volume, Dim));
+    program.say("mesh       " + pent::apps::size_text(file.mesh.vertex_count(), proof.cells, Dim)
+                + formatted(", %.10g m^%d", proof.volume, Dim));
     program.say(pent::apps::box_line<Dim>(file.mesh.positions));
-    program.say(formatted(
-        "facets     %lld inner ones match, boundary of %lld is closed and oriented",
-        static_cast<Long>(proof.interior_facets), static_cast<Long>(proof.boundary_facets)));
+    program.say(
+        "facets     " + counted(proof.interior_facets, "inner one matches", "inner ones match")
+        + ", boundary of " + std::to_string(proof.boundary_facets) + " is closed and oriented");
     program.say(formatted("links      of %lld boundary vertices are spheres, %lld are not",
                           static_cast<Long>(links.boundary_vertices - links.faulty),
                           static_cast<Long>(links.faulty)));
@@ -247,11 +247,11 @@ void check_mesh(Program& program, const std::filesystem::path& path) {
     program.report()["quality"] = pent::apps::to_json(quality);
     if (links.faulty + links.unused_vertices > 0) {
         throw pent::Error(
-            formatted("%s: %lld vertices without a cell, and the boundary is not a manifold "
-                      "at %lld vertices (first: %lld); parts that touch in a point or an "
-                      "edge must be joined or moved apart",
-                      path.c_str(), static_cast<Long>(links.unused_vertices),
-                      static_cast<Long>(links.faulty), static_cast<Long>(links.first_faulty)));
+            path.string() + ": " + counted(links.unused_vertices, "vertex", "vertices")
+            + " without a cell, and the boundary is not a manifold at "
+            + counted(links.faulty, "vertex", "vertices")
+            + " (first: " + std::to_string(links.first_faulty)
+            + "); parts that touch in a point or an edge must be joined or moved apart");
     }
     program.say("finished: " + path.string() + " is sound");
 }
@@ -275,10 +275,10 @@ std::vector<std::string> quantities_of(const pent::Frame<Dim>& frame) {
 template <int Dim>
 void check_frame(Program& program, const std::filesystem::path& path) {
     const pent::Frame<Dim> frame = pent::read_frame<Dim>(path);
-    program.say(formatted("frame      %lld of %s, step %lld, %.6g s, %lld vertices",
+    program.say(formatted("frame      %lld of %s, step %lld, %.6g s, ",
                           static_cast<Long>(frame.frame), frame.mesh_name.c_str(),
-                          static_cast<Long>(frame.step), frame.time,
-                          static_cast<Long>(frame.positions.cols())));
+                          static_cast<Long>(frame.step), frame.time)
+                + counted(frame.positions.cols(), "vertex", "vertices"));
     program.say(pent::apps::box_line<Dim>(frame.positions));
     const std::vector<std::string> quantities = quantities_of(frame);
     std::string list;

@@ -11,6 +11,7 @@
 #include "space_time_body.h"
 #include "watchdog.h"
 
+#include <pent/counted.h>
 #include <pent/error.h>
 #include <pent/formatted.h>
 #include <pent/mesher/make_body.h>
@@ -28,6 +29,7 @@
 
 namespace {
 
+using pent::counted;
 using pent::formatted;
 using pent::apps::MeshArguments;
 using pent::apps::NamedFile;
@@ -35,7 +37,6 @@ using pent::apps::Program;
 using pent::mesher::BodyReport;
 using pent::mesher::ExpectedSize;
 using pent::mesher::Repair;
-using Long = long long;  // NOLINT(google-runtime-int): printf's type
 
 void say_surface(const Program& program, const BodyReport& report) {
     if (report.repair != Repair::None) {
@@ -45,20 +46,18 @@ void say_surface(const Program& program, const BodyReport& report) {
                               report.repair_distance));
     }
     if (report.merged_points + report.flipped_triangles > 0) {
-        program.say(formatted("corrected  %lld points merged, %lld triangles turned over",
-                              static_cast<Long>(report.merged_points),
-                              static_cast<Long>(report.flipped_triangles)));
+        program.say("corrected  " + counted(report.merged_points, "point", "points") + " merged, "
+                    + counted(report.flipped_triangles, "triangle", "triangles") + " turned over");
     }
     if (report.surface.triangles > 0) {
         const std::string cavities =
             report.cavities == 0
                 ? ""
-                : formatted(", %lld of them cavities", static_cast<Long>(report.cavities));
-        program.say(formatted(
-            "surface    %lld points, %lld triangles, area %.6g m^2, %lld component%s%s",
-            static_cast<Long>(report.surface.points), static_cast<Long>(report.surface.triangles),
-            report.surface_area, static_cast<Long>(report.components),
-            report.components == 1 ? "" : "s", cavities.c_str()));
+                : ", " + counted(report.cavities, "of them a cavity", "of them cavities");
+        program.say("surface    " + counted(report.surface.points, "point", "points") + ", "
+                    + counted(report.surface.triangles, "triangle", "triangles")
+                    + formatted(", area %.6g m^2, ", report.surface_area)
+                    + counted(report.components, "component", "components") + cavities);
     }
     if (!report.failures.empty()) {
         program.say("fell back  because " + report.failures);
@@ -69,9 +68,8 @@ void say_boundary(const Program& program, const pent::mesher::BoundaryReport& bo
     if (boundary.tetrahedra == 0) {
         return;
     }
-    program.say(formatted("boundary   %lld tetrahedra, %lld smooth part%s",
-                          static_cast<Long>(boundary.tetrahedra),
-                          static_cast<Long>(boundary.patches), boundary.patches == 1 ? "" : "s"));
+    program.say("boundary   " + counted(boundary.tetrahedra, "tetrahedron", "tetrahedra") + ", "
+                + counted(boundary.patches, "smooth part", "smooth parts"));
     if (boundary.is_mended()) {
         program.say("mended     " + pent::mesher::describe(boundary));
     }
@@ -96,18 +94,18 @@ void say_base(const Program& program, const BodyReport& report, int dim) {
     if (report.layers == 0) {
         return;
     }
-    program.say(formatted("base       %lld vertices, %lld %s (%s), %.6g m^%d, mean edge %.4g m",
-                          static_cast<Long>(report.base_vertices),
-                          static_cast<Long>(report.base_cells),
-                          pent::cell_name_plural(dim - 1).data(), report.generator.c_str(),
-                          report.base_volume, dim - 1, report.base_edge));
+    program.say("base       "
+                + pent::apps::size_text(report.base_vertices, report.base_cells, dim - 1)
+                + formatted(" (%s), %.6g m^%d, mean edge %.4g m", report.generator.c_str(),
+                            report.base_volume, dim - 1, report.base_edge));
     // Beyond what rounding makes of equal ones.
     const bool is_graded = report.highest_layer > report.lowest_layer * (1 + 1e-9);
-    program.say(formatted("extrusion  %.6g m along %c, %d layer%s", report.direction[dim - 1],
-                          "xyzw"[dim - 1], report.layers, report.layers == 1 ? "" : "s")
-                + (is_graded ? formatted(", the thinnest %.4g m, the thickest %.4g m",
-                                         report.lowest_layer, report.highest_layer)
-                             : ""));
+    program.say(
+        formatted("extrusion  %.6g m along %c, ", report.direction[dim - 1], "xyzw"[dim - 1])
+        + counted(report.layers, "layer", "layers")
+        + (is_graded ? formatted(", the thinnest %.4g m, the thickest %.4g m", report.lowest_layer,
+                                 report.highest_layer)
+                     : ""));
 }
 
 template <int Dim>
@@ -115,40 +113,39 @@ void say_body(const Program& program, const pent::mesher::Body<Dim>& body) {
     const BodyReport& report = body.report;
     const pent::mesher::Proof& proof = report.proof;
     if (report.beveled > 0) {
-        program.say(
-            formatted("beveled    %lld simplices of the boundary cross a ridge; shorter edges "
-                      "follow it",
-                      static_cast<Long>(report.beveled)));
+        program.say("beveled    "
+                    + counted(report.beveled, "simplex of the boundary crosses",
+                              "simplices of the boundary cross")
+                    + " a ridge; shorter edges follow it");
     }
     if (report.thin_parts.edges > 0) {
         const pent::mesher::ThinParts& thin = report.thin_parts;
         program.say(
-            formatted("thin       %lld edges go right through a wall or a gap, the thinnest %.3g m "
-                      "at (%.4g, %.4g, %.4g, %.4g): walls have holes, gaps are closed; edges of "
-                      "at most %.3g m follow it",
-                      static_cast<Long>(thin.edges), thin.width, thin.place[0], thin.place[1],
-                      thin.place[2], thin.place[3], thin.width));
+            "thin       " + counted(thin.edges, "edge goes", "edges go")
+            + formatted(" right through a wall or a gap, the thinnest %.3g m "
+                        "at (%.4g, %.4g, %.4g, %.4g): walls have holes, gaps are closed; edges of "
+                        "at most %.3g m follow it",
+                        thin.width, thin.place[0], thin.place[1], thin.place[2], thin.place[3],
+                        thin.width));
     }
     if (report.curve.moved + report.curve.limited > 0) {
-        program.say(formatted("curved     %lld middles of edges, by up to %.4g m",
-                              static_cast<Long>(report.curve.moved), report.curve.farthest));
+        program.say("curved     "
+                    + counted(report.curve.moved, "middle of an edge", "middles of edges")
+                    + formatted(", by up to %.4g m", report.curve.farthest));
     }
     if (report.curve.limited > 0) {
         program.say(
-            formatted("limited    %lld middles of edges, which would fold cells on the surface: "
-                      "they are nearer to their edges, or on them; shorter edges leave fewer",
-                      static_cast<Long>(report.curve.limited)));
+            "limited    " + counted(report.curve.limited, "middle of an edge", "middles of edges")
+            + ", where a curved boundary would fold cells on the surface: nearer to the edge, or on"
+              " it; shorter edges leave fewer");
     }
-    program.say(formatted("body       %lld vertices, %lld %s, %.10g m^%d",
-                          static_cast<Long>(body.mesh.vertex_count()),
-                          static_cast<Long>(proof.cells), pent::cell_name_plural(Dim).data(),
-                          proof.volume, Dim));
+    program.say("body       " + pent::apps::size_text(body.mesh.vertex_count(), proof.cells, Dim)
+                + formatted(", %.10g m^%d", proof.volume, Dim));
     program.say(pent::apps::box_line<Dim>(body.mesh.positions));
-    program.say(formatted(
-        "proved     %lld inner facets match, boundary of %lld facets closed, "
-        "volume as expected to %.1e",
-        static_cast<Long>(proof.interior_facets), static_cast<Long>(proof.boundary_facets),
-        std::abs(proof.volume - proof.expected_volume) / proof.expected_volume));
+    program.say(
+        pent::apps::proof_line(proof.interior_facets, proof.boundary_facets)
+        + formatted(", volume as expected to %.1e",
+                    std::abs(proof.volume - proof.expected_volume) / proof.expected_volume));
     if (const std::string names = pent::apps::carried_names(body.mesh, body.extras);
         !names.empty()) {
         program.say("carried    " + names);

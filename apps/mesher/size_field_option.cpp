@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
+#include "common/values.h"
 #include "mesh_options.h"
 
 #include <pent/error.h>
@@ -68,13 +69,13 @@ void add_size_field_options(CLI::App& cli, MeshArguments& arguments, CLI::Option
             ->group(group);
     cli.add_option("--size-growth", arguments.request.sizes.growth,
                    "How much longer edges may be for each meter of distance (m)")
-        ->check(CLI::NonNegativeNumber)
+        ->check(nonnegative_number())
         ->capture_default_str()
         ->needs(field)
         ->group(group);
     cli.add_option("--longest-edge", arguments.request.sizes.longest,
                    "The longest that edges may become (m); default: half of the thinnest part")
-        ->check(CLI::PositiveNumber)
+        ->check(positive_number())
         ->needs(field)
         ->group(group);
 }

@@ -201,17 +201,14 @@ void say_body(const Program& program, const Made& made) {
     if (!body.way_of_bisection.empty()) {
         program.say("bisection  ready " + body.way_of_bisection);
     }
-    program.say(formatted("body       %lld vertices, %lld pentachora, %.10g m^4",
-                          static_cast<Long>(body.mesh.vertex_count()),
-                          static_cast<Long>(body.proof.cells), body.proof.volume));
+    program.say("body       " + size_text(body.mesh.vertex_count(), body.proof.cells, 4)
+                + formatted(", %.10g m^4", body.proof.volume));
     program.say(
         formatted("integral   of the moving volume over w: %.10g m^4; the body has %.2g of it %s",
                   body.integral, std::abs(body.proof.volume / body.integral - 1),
                   body.proof.volume < body.integral ? "less" : "more"));
     program.say(box_line<4>(body.mesh.positions));
-    program.say(formatted("proved     %lld inner facets match, boundary of %lld facets closed",
-                          static_cast<Long>(body.proof.interior_facets),
-                          static_cast<Long>(body.proof.boundary_facets)));
+    program.say(proof_line(body.proof.interior_facets, body.proof.boundary_facets));
     program.say("quality    " + quality_line(body.quality));
 }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
+#include "common/values.h"
 #include "mesh_options.h"
 
 #include <pent/error.h>
@@ -98,7 +99,7 @@ void add_space_time_options(CLI::App& cli, MeshArguments& arguments) {
     };
     goes_with(cli.add_option("--time-scale", moving.options.time_scale,
                              "The time t is at w = this times t (m/s)")
-                  ->check(CLI::PositiveNumber)
+                  ->check(positive_number())
                   ->capture_default_str());
     goes_with(cli.add_option("--refine-time", moving.refine_time,
                              "Layers for each step from frame to frame: a number, or auto for as "
@@ -106,12 +107,13 @@ void add_space_time_options(CLI::App& cli, MeshArguments& arguments) {
                   ->type_name("N|auto")
                   ->capture_default_str());
     goes_with(cli.add_option("--every", moving.series.every, "Only every K-th frame")
-                  ->check(CLI::Range(1, 1'000'000))
+                  ->check(whole_number(1, 1'000'000))
                   ->type_name("K"));
     goes_with(
         cli.add_option("--time-step", moving.time_step, "From one numbered file to the next (s)")
-            ->check(CLI::PositiveNumber));
-    goes_with(cli.add_option("--body", moving.series.body, "Of a run folder with several bodies"));
+            ->check(positive_number()));
+    goes_with(cli.add_option("--body", moving.series.body, "Of a run folder with several bodies")
+                  ->type_name("NAME"));
     goes_with(cli.add_flag("--slabs", moving.has_slabs,
                            "A file for each step from frame to frame: NAME_000000.pent and so on"));
     goes_with(cli.add_flag("--bisection", moving.options.is_bisection_ready,

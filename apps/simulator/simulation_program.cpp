@@ -4,6 +4,7 @@
 #include "common/program.h"
 #include "common/progress.h"
 
+#include <pent/counted.h>
 #include <pent/crc32c.h>
 #include <pent/formatted.h>
 #include <pent/printable.h>
@@ -122,7 +123,7 @@ std::string summarize_defects(Program& program, const RunReport& report) {
 std::string steps_text(const RunReport& report) {
     const std::uint64_t steps = report.steps.empty() ? 0 : report.steps.back().step;
     const std::uint64_t lost = steps - report.steps.size();
-    return std::to_string(steps) + " steps"
+    return counted(static_cast<std::int64_t>(steps), "step", "steps")
            + (lost > 0 ? " (nothing is known of " + std::to_string(lost) + ")" : "");
 }
 
@@ -151,8 +152,8 @@ void summarize(Program& program, const RunReport& report, const std::string& fol
         failure = step.refused > 0 ? step.failure : failure;
     }
     if (refused > 0) {
-        program.say(std::to_string(refused)
-                    + " attempts at steps were cut in two, the last because " + failure);
+        program.say(counted(refused, "attempt at a step was", "attempts at steps were")
+                    + " cut in two, the last because " + failure);
     }
     program.report()["parts"] = report.parts.size();
     program.report()["frames"] = report.frames.size();
@@ -171,8 +172,9 @@ void summarize(Program& program, const RunReport& report, const std::string& fol
         defects += defects.empty() ? " with deep penetration" : " and deep penetration";
     }
     program.say(std::string(verdict_name(report.verdict)) + defects + ": "
-                + std::to_string(report.frames.size()) + " frames in " + folder + ", "
-                + steps_text(report) + ", " + readable_time(report.seconds) + parts_text(report));
+                + counted(static_cast<std::int64_t>(report.frames.size()), "frame", "frames")
+                + " in " + folder + ", " + steps_text(report) + ", " + readable_time(report.seconds)
+                + parts_text(report));
 }
 
 Verdict explain_scene(Program& program, const Arguments& arguments, const simulator::Scene& scene) {
@@ -228,7 +230,7 @@ RunReport run_scene(Program& program, const Arguments& arguments, const simulato
     callbacks.should_stop = stop_requested;
     callbacks.on_frame = [&](const FrameReport& frame, const StepReport& step) {
         if (frame.frame > 0
-            && progress.update(frame.frame, std::to_string(step.iterations) + " iterations")) {
+            && progress.update(frame.frame, counted(step.iterations, "iteration", "iterations"))) {
             heartbeat.spoken();
         }
         heartbeat.begin("frame " + std::to_string(frame.frame + 1));
@@ -278,8 +280,11 @@ int run_simulation_program(Program& program,
     Arguments arguments;
     arguments.ranks = std::move(ranks);
     CLI::App& options = program.options();
-    options.add_option("scene", arguments.scene, "Scene file (TOML)")->required();
-    CLI::Option* output = options.add_option("-o,--output", arguments.output, "Folder for the run");
+    options.add_option("scene", arguments.scene, "Scene file (TOML)")
+        ->required()
+        ->type_name("FILE");
+    CLI::Option* output =
+        options.add_option("-o,--output", arguments.output, "Folder for the run")->type_name("OUT");
     options
         .add_flag("--explain", arguments.explain,
                   "Say what will be modeled and at what cost, and run nothing")
@@ -290,8 +295,10 @@ int run_simulation_program(Program& program,
         .add_flag("--resume", arguments.resume,
                   "Go on with the run in the folder behind its last whole frame")
         ->excludes(force);
-    options.add_option("--isa", arguments.isa,
-                       "Instruction set: scalar, baseline, avx2 or avx512; default: the widest");
+    options
+        .add_option("--isa", arguments.isa,
+                    "Instruction set: scalar, baseline, avx2 or avx512; default: the widest")
+        ->type_name("NAME");
     options
         .add_flag_callback(
             "--schema",
@@ -302,7 +309,7 @@ int run_simulation_program(Program& program,
                 }
                 throw CLI::Success();
             },
-            "Print every key of scene files and end")
+            "Print every key of scene files and of report.json, and end")
         ->trigger_on_parse()
         ->configurable(false);
     options.callback([&] {

@@ -1,7 +1,9 @@
 #include "common/heartbeat.h"
 #include "common/program.h"
 #include "common/progress.h"
+#include "common/values.h"
 
+#include <pent/counted.h>
 #include <pent/error.h>
 #include <pent/formatted.h>
 #include <pent/output_file.h>
@@ -18,8 +20,11 @@
 namespace {
 
 namespace fs = std::filesystem;
+using pent::counted;
+using pent::apps::positive_number;
 using pent::apps::Program;
 using pent::apps::Verdict;
+using pent::apps::whole_number;
 using pent::simulator::word_of;
 using pent::study::Result;
 using pent::study::StudyReport;
@@ -203,10 +208,11 @@ Verdict prepare(Program& program, const Arguments& arguments) {
     const auto levels =
         std::ranges::count(state->units, pent::study::UnitKind::Reference, &UnitState::kind);
     const auto done = std::ranges::count(state->units, true, &UnitState::is_done);
-    program.say("prepared: " + std::to_string(state->units.size()) + " units, of which "
-                + std::to_string(levels) + " are the reference and " + std::to_string(done)
-                + " done; run each by pent-study -o " + folder + " --run N, then pent-study -o "
-                + folder + " --collect");
+    program.say("prepared: "
+                + counted(static_cast<std::int64_t>(state->units.size()), "unit", "units")
+                + ", of which " + std::to_string(levels) + " are the reference and "
+                + std::to_string(done) + " done; run each by pent-study -o " + folder
+                + " --run N, then pent-study -o " + folder + " --collect");
     return Verdict::Finished;
 }
 
@@ -317,9 +323,13 @@ int main(int argc, char** argv) {
         " --write-scene chosen.toml");
     Arguments arguments;
     CLI::App& options = program.options();
-    options.add_option("scene", arguments.study.scene,
-                       "Scene file (TOML); of a study that is prepared not needed");
-    options.add_option("-o,--output", arguments.study.folder, "Folder for everything")->required();
+    options
+        .add_option("scene", arguments.study.scene,
+                    "Scene file (TOML); of a study that is prepared not needed")
+        ->type_name("FILE");
+    options.add_option("-o,--output", arguments.study.folder, "Folder for everything")
+        ->required()
+        ->type_name("OUT");
     options
         .add_option(
             "--vary", arguments.study.vary,
@@ -328,30 +338,37 @@ int main(int argc, char** argv) {
             " block, as in attachment.stiffness=100,1e4")
         ->allow_extra_args(false);
     options
-        .add_option("--repeat", arguments.study.repeats, "Timed runs of each; the median counts")
-        ->check(CLI::Range(1, 100));
-    options.add_option("--frames", arguments.study.frames, "Study only so many frames")
-        ->check(CLI::Range(1, 999'999));
+        .add_option("--repeat", arguments.study.repeats,
+                    "Timed runs of each; the median counts; default: 3")
+        ->check(whole_number(1, 100));
+    options
+        .add_option("--frames", arguments.study.frames, "Study only so many frames; default: all")
+        ->check(whole_number(1, 999'999));
     options
         .add_option("--reference-halvings", arguments.study.reference_halvings,
-                    "How often the reference halves the smallest dt")
-        ->check(CLI::Range(2, 8));
-    options.add_option("--reference-integrator", arguments.study.reference_integrator,
-                       "Of the reference; linear_euler where Newton's method does not get through");
+                    "How often the reference halves the smallest dt; default: 2")
+        ->check(whole_number(2, 8));
+    options
+        .add_option("--reference-integrator", arguments.study.reference_integrator,
+                    "Of the reference; linear_euler where Newton's method does not get through; "
+                    "default: bdf2")
+        ->type_name("NAME");
     options.add_flag("--keep-runs", arguments.study.keep_runs, "Keep the frames of all runs");
     options.add_flag("--force", arguments.study.force,
                      "Throw away the study that is in the folder");
     CLI::Option* error = options
                              .add_option("--error", arguments.error_percent,
                                          "Choose the fastest settings within this error (percent)")
-                             ->check(CLI::PositiveNumber);
+                             ->check(positive_number());
     options
         .add_option("--budget", arguments.budget,
                     "Choose the most accurate settings that run the whole scene within this (s)")
-        ->check(CLI::PositiveNumber)
+        ->check(positive_number())
         ->excludes(error);
-    options.add_option("--write-scene", arguments.write_scene,
-                       "Write the scene with the chosen settings to this file");
+    options
+        .add_option("--write-scene", arguments.write_scene,
+                    "Write the scene with the chosen settings to this file")
+        ->type_name("FILE");
     const std::vector<CLI::Option*> parts = {
         options.add_flag("--prepare", arguments.prepare,
                          "Run nothing: make the meshes and number the units, which may be run"
@@ -360,7 +377,7 @@ int main(int argc, char** argv) {
                          "Print number, kind, name and state of each unit"),
         options.add_option("--run", arguments.run, "Run the unit of this number")
             ->type_name("N")
-            ->check(CLI::Range(1, 999'999'999)),
+            ->check(whole_number(1, 999'999'999)),
         options.add_flag("--collect", arguments.collect,
                          "Compare, plot and recommend when all units have been run")};
     for (CLI::Option* part : parts) {

@@ -1,4 +1,5 @@
 #include "common/program.h"
+#include "common/values.h"
 #include "view_options.h"
 
 #include <pent/error.h>
@@ -56,18 +57,18 @@ void add_options(CLI::App& cli, Arguments& arguments) {
            "A contact sheet, PNG: several frames, a row for each slice if there are several")
         ->type_name("FILE");
     cli.add_option("--sheet-frames", render.sheet_frames, "Frames on the sheet; default: 6")
-        ->check(CLI::Range(1, 100));
+        ->check(whole_number(1, 100));
     cli.add_option("--size", arguments.size, "Pixels of a picture; default: 1280x720")
         ->type_name("WxH");
     cli.add_option("--fps", render.frames_per_second,
                    "Pictures a second of the movie; default: as in the simulation")
-        ->check(CLI::Range(0.1, 1000.0));
+        ->check(number(0.1, 1000.0));
     cli.add_option("--azimuth", render.view.azimuth, "Camera, degrees about y; default: 30")
-        ->check(CLI::Range(-3600.0, 3600.0));
+        ->check(number(-3600.0, 3600.0));
     cli.add_option("--elevation", render.view.elevation, "Camera, degrees up; default: 18")
-        ->check(CLI::Range(-89.0, 89.0));
+        ->check(number(-89.0, 89.0));
     cli.add_option("--fov", render.view.field_of_view, "Camera, degrees upright; default: 28")
-        ->check(CLI::Range(1.0, 150.0));
+        ->check(number(1.0, 150.0));
     cli.add_flag("--onion", render.is_onion,
                  "Show several slices in one picture, all but the middle one as ghosts");
     cli.add_flag("--sweep", render.is_sweep,
@@ -209,7 +210,7 @@ Verdict render(Program& program, Arguments& arguments) {
 
 int main(int argc, char** argv) {
     pent::apps::Program program(
-        "pent-render", "Renders pictures and movies of slices of four-dimensional bodies",
+        "pent-render", "Renders pictures and movies of slices of four-dimensional bodies.",
         "pent-render RUN/ -o movie.mp4 --sheet sheet.png --w -0.1,0,0.1 --color strain");
     pent::apps::Arguments arguments;
     add_options(program.options(), arguments);

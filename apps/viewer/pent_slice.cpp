@@ -1,4 +1,5 @@
 #include "common/program.h"
+#include "common/values.h"
 #include "view_options.h"
 
 #include <pent/viewer/run_folder.h>
@@ -26,7 +27,7 @@ void add_options(CLI::App& cli, Arguments& arguments) {
         ->required()
         ->type_name("OUT");
     cli.add_option("--format", arguments.format, "ply, obj or vtu; default: ply")
-        ->check(CLI::IsMember({"ply", "obj", "vtu"}).description(""))
+        ->transform(one_of({"ply", "obj", "vtu"}))
         ->type_name("KIND");
     cli.add_flag("--keep-degenerate", arguments.keep_degenerate,
                  "Keep the triangles of zero area that a slice through vertices has");
@@ -101,7 +102,7 @@ Verdict slice(Program& program, const Arguments& arguments) {
 
 int main(int argc, char** argv) {
     pent::apps::Program program(
-        "pent-slice", "Slices four-dimensional bodies by hyperplanes into closed surfaces",
+        "pent-slice", "Slices four-dimensional bodies by hyperplanes into closed surfaces.",
         "pent-slice RUN/ -o OUT/ --w -0.1,0,0.1 --color strain");
     pent::apps::Arguments arguments;
     add_options(program.options(), arguments);

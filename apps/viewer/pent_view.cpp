@@ -1,7 +1,9 @@
 #include "common/program.h"
+#include "common/values.h"
 #include "view_options.h"
 
 #include <pent/child_process.h>
+#include <pent/counted.h>
 #include <pent/error.h>
 #include <pent/viewer/export_page.h>
 #include <pent/viewer/run_folder.h>
@@ -36,7 +38,7 @@ void add_options(CLI::App& cli, Arguments& arguments) {
         ->required()
         ->type_name("RUN");
     cli.add_option("--port", arguments.port, "Port on 127.0.0.1; default: any that is free")
-        ->check(CLI::Range(1, 65535));
+        ->check(whole_number(1, 65535));
     cli.add_flag("--no-open", arguments.is_headless, "Say the address; open no browser");
     cli.add_option("--export", arguments.output,
                    "Write one page with the run in it, which opens by a double click, and end")
@@ -46,7 +48,7 @@ void add_options(CLI::App& cli, Arguments& arguments) {
                    "commas; default: all")
         ->type_name("LIST");
     cli.add_option("--limit", arguments.limit, "Of --export: largest size, MB; default: 64")
-        ->check(CLI::Range(0.1, 1e6));
+        ->check(number(0.1, 1e6));
     cli.add_option("--page", arguments.page,
                    "index.html as scripts/web.sh builds it; default: the installed one, or that of "
                    "this source")
@@ -96,8 +98,9 @@ Verdict export_run(Program& program, const Arguments& arguments) {
     std::array<char, 96> text{};
     std::snprintf(text.data(), text.size(), ", %.1f MB; positions are right to %.2g m",
                   static_cast<double>(report.bytes) / 1e6, report.largest_error);
-    program.say("finished: " + std::to_string(options.frames.size()) + " frames in "
-                + arguments.output + text.data());
+    program.say("finished: "
+                + counted(static_cast<std::int64_t>(options.frames.size()), "frame", "frames")
+                + " in " + arguments.output + text.data());
     return Verdict::Finished;
 }
 
@@ -120,7 +123,7 @@ Verdict serve(Program& program, const Arguments& arguments) {
 
 int main(int argc, char** argv) {
     pent::apps::Program program("pent-view",
-                                "Shows a run in the browser: slices to turn and to scrub through",
+                                "Shows a run in the browser: slices to turn and to scrub through.",
                                 "pent-view RUN/\n  pent-view RUN/ --export page.html --frames ::2");
     pent::apps::Arguments arguments;
     add_options(program.options(), arguments);

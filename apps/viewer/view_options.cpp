@@ -1,5 +1,7 @@
 #include "view_options.h"
 
+#include "common/values.h"
+
 #include <pent/error.h>
 #include <pent/real_text.h>
 
@@ -148,7 +150,7 @@ void add_view_options(CLI::App& cli, ViewArguments& arguments) {
     cli.add_option("--project", arguments.projection,
                    "Add the outline of the whole bodies, projected from 4D: orthographic or "
                    "perspective")
-        ->check(CLI::IsMember({"orthographic", "perspective"}).description(""))
+        ->transform(one_of({"orthographic", "perspective"}))
         ->type_name("KIND");
     cli.add_option("--eye", arguments.eye,
                    "Distance of the eye of a perspective from the slice, m; default: three times "

@@ -1,14 +1,12 @@
 #include "extract.h"
 #include "generators.h"
 #include "half_edges.h"
+#include "shell.h"
 #include "union_find.h"
 
-#include <pent/mesher/orient.h>
-
-#include <algorithm>
-#include <cmath>
 #include <limits>
 #include <map>
+#include <utility>
 
 namespace pent::mesher {
 
@@ -37,13 +35,15 @@ std::vector<std::vector<std::uint32_t>> components_of(const Surface& surface) {
 std::vector<Surface> bodies_of(const Surface& surface) {
     std::vector<std::vector<std::uint32_t>> outer;
     std::vector<std::vector<std::uint32_t>> cavities;
+    std::vector<Shell> shells;
     for (std::vector<std::uint32_t>& component : components_of(surface)) {
-        const bool is_outer = enclosed_volume(extract(surface, component)) > 0;
-        (is_outer ? outer : cavities).push_back(std::move(component));
-    }
-    std::vector<Surface> shells;
-    for (const std::vector<std::uint32_t>& triangles : outer) {
-        shells.push_back(extract(surface, triangles));
+        Shell shell(extract(surface, component));
+        if (shell.volume() > 0) {
+            outer.push_back(std::move(component));
+            shells.push_back(std::move(shell));
+        } else {
+            cavities.push_back(std::move(component));
+        }
     }
     // A cavity belongs to the smallest shell around it.
     for (const std::vector<std::uint32_t>& cavity : cavities) {
@@ -51,10 +51,9 @@ std::vector<Surface> bodies_of(const Surface& surface) {
         std::size_t owner = 0;
         double smallest = std::numeric_limits<double>::infinity();
         for (std::size_t i = 0; i < shells.size(); ++i) {
-            const double volume = enclosed_volume(shells[i]);
-            if (volume < smallest && winding_number(shells[i], point) > 0.5) {
+            if (shells[i].volume() < smallest && shells[i].is_around(point)) {
                 owner = i;
-                smallest = volume;
+                smallest = shells[i].volume();
             }
         }
         outer[owner].insert(outer[owner].end(), cavity.begin(), cavity.end());

@@ -6,13 +6,15 @@
 #include <pent/pent_file.h>
 
 #include <algorithm>
+#include <limits>
+#include <optional>
 
 namespace pent::mesher {
 
 namespace {
 
 // Notes why not, else.
-bool can_carry(const VtkArray& array,
+bool can_carry(const FileArray& array,
                const std::vector<std::string>& carried,
                std::vector<std::string>& left_out) {
     const bool has_room = array.components == 1 || array.components == 3;
@@ -26,12 +28,32 @@ bool can_carry(const VtkArray& array,
     return has_room && is_new;
 }
 
+// Which tuple of an array a point or cell has, if it has one.
+std::optional<std::int64_t> tuple_of(const FileArray& array, std::int64_t number) {
+    if (!array.numbers) {
+        return number;
+    }
+    const std::vector<std::int64_t>& numbers = *array.numbers;
+    const auto found = std::lower_bound(numbers.begin(), numbers.end(), number);
+    return found != numbers.end() && *found == number ? std::optional(found - numbers.begin())
+                                                      : std::nullopt;
+}
+
 }  // namespace
 
-CarriedArrays carried_point_arrays(const VtkGrid& grid, std::vector<std::string>& left_out) {
+const FileArray* find_array(const std::vector<FileArray>& arrays, std::string_view name) {
+    for (const FileArray& array : arrays) {
+        if (array.name == name) {
+            return &array;
+        }
+    }
+    return nullptr;
+}
+
+CarriedArrays carried_point_arrays(const FileGrid& grid, std::vector<std::string>& left_out) {
     FieldNames names(reserved_vertex_names(4));
     CarriedArrays carried;
-    for (const VtkArray& array : grid.point_arrays) {
+    for (const FileArray& array : grid.point_arrays) {
         if (can_carry(array, carried.arrays, left_out)) {
             carried.arrays.push_back(array.name);
             carried.names.push_back(names.take(array.name, array.components == 3));
@@ -40,13 +62,13 @@ CarriedArrays carried_point_arrays(const VtkGrid& grid, std::vector<std::string>
     return carried;
 }
 
-CarriedArrays carried_cell_arrays(const VtkGrid& grid,
+CarriedArrays carried_cell_arrays(const FileGrid& grid,
                                   std::string_view regions,
                                   std::vector<std::string>& left_out) {
     FieldNames names(reserved_cell_names(4));
     CarriedArrays carried;
     bool has_fibers = false;
-    for (const VtkArray& array : grid.cell_arrays) {
+    for (const FileArray& array : grid.cell_arrays) {
         if (array.name == regions || !can_carry(array, carried.arrays, left_out)) {
             continue;
         }
@@ -59,12 +81,14 @@ CarriedArrays carried_cell_arrays(const VtkGrid& grid,
     return carried;
 }
 
-Eigen::MatrixXd values_at(const VtkArray& array, const std::vector<std::int64_t>& tuples) {
-    Eigen::MatrixXd values(array.components, static_cast<Eigen::Index>(tuples.size()));
-    for (std::size_t i = 0; i < tuples.size(); ++i) {
+Eigen::MatrixXd values_at(const FileArray& array, const std::vector<std::int64_t>& numbers) {
+    Eigen::MatrixXd values(array.components, static_cast<Eigen::Index>(numbers.size()));
+    for (std::size_t i = 0; i < numbers.size(); ++i) {
+        const std::optional<std::int64_t> tuple = tuple_of(array, numbers[i]);
         for (std::int64_t k = 0; k < array.components; ++k) {
             values(k, static_cast<Eigen::Index>(i)) =
-                array.values[static_cast<std::size_t>(tuples[i] * array.components + k)];
+                tuple ? array.values[static_cast<std::size_t>(*tuple * array.components + k)]
+                      : std::numeric_limits<double>::quiet_NaN();
         }
     }
     return values;

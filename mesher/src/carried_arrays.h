@@ -1,6 +1,6 @@
 #pragma once
 
-#include "vtk_grid.h"
+#include "file_grid.h"
 
 #include <Eigen/Core>
 
@@ -18,17 +18,18 @@ struct CarriedArrays {
 };
 
 /// Those of one or three numbers; `left_out` gets what to say of each of the others.
-[[nodiscard]] CarriedArrays carried_point_arrays(const VtkGrid& grid,
+[[nodiscard]] CarriedArrays carried_point_arrays(const FileGrid& grid,
                                                  std::vector<std::string>& left_out);
 
 /// The same of the cells.
 /// @param regions  The array with their labels, which is none of them.
-[[nodiscard]] CarriedArrays carried_cell_arrays(const VtkGrid& grid,
+[[nodiscard]] CarriedArrays carried_cell_arrays(const FileGrid& grid,
                                                 std::string_view regions,
                                                 std::vector<std::string>& left_out);
 
-/// The values of an array for these of its tuples, a column each.
-[[nodiscard]] Eigen::MatrixXd values_at(const VtkArray& array,
-                                        const std::vector<std::int64_t>& tuples);
+/// The values of an array at these points or cells, a column each; NaN where it has none.
+/// @param numbers  Theirs in the file.
+[[nodiscard]] Eigen::MatrixXd values_at(const FileArray& array,
+                                        const std::vector<std::int64_t>& numbers);
 
 }  // namespace pent::mesher

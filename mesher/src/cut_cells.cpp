@@ -1,5 +1,6 @@
 #include "cut_cells.h"
 
+#include <pent/counted.h>
 #include <pent/error.h>
 
 #include <Eigen/LU>
@@ -278,7 +279,7 @@ CutCells cut_cells(const CellSoup& soup, const std::string& name) {
     warped.refuse(soup, name);
     const std::string others = list_counts(soup.counts, CellKind::Pyramid, CellKind::Hexahedron);
     if (!others.empty()) {
-        result.cut = others + " into " + std::to_string(made) + " tetrahedra";
+        result.cut = others + " into " + counted(made, "tetrahedron", "tetrahedra");
     }
     return result;
 }

@@ -1,11 +1,8 @@
 #include "legacy_arrays.h"
 
-#include <pent/real_text.h>
-
 #include <algorithm>
 #include <array>
 #include <charconv>
-#include <system_error>
 #include <utility>
 
 namespace pent::mesher {
@@ -117,7 +114,7 @@ std::string LegacyArrays::next_name() {
 
 bool LegacyArrays::read(const std::string& keyword,
                         std::int64_t rows,
-                        std::vector<VtkArray>& arrays) {
+                        std::vector<FileArray>& arrays) {
     if (keyword == "SCALARS") {
         arrays.push_back(read_scalars(rows));
     } else if (const std::int64_t components = components_of(keyword); components > 0) {
@@ -143,11 +140,11 @@ bool LegacyArrays::read(const std::string& keyword,
 }
 
 void LegacyArrays::skip_field() {
-    std::vector<VtkArray> arrays;
+    std::vector<FileArray> arrays;
     read_field(std::nullopt, arrays);
 }
 
-VtkArray LegacyArrays::read_scalars(std::int64_t rows) {
+FileArray LegacyArrays::read_scalars(std::int64_t rows) {
     const std::string name = next_name();
     const std::string type(text_.next_word("a type"));
     const std::string_view word = text_.word();
@@ -161,7 +158,7 @@ VtkArray LegacyArrays::read_scalars(std::int64_t rows) {
 }
 
 // Arrays with a number of rows each, which is that of points or cells where these have them.
-void LegacyArrays::read_field(std::optional<std::int64_t> rows, std::vector<VtkArray>& arrays) {
+void LegacyArrays::read_field(std::optional<std::int64_t> rows, std::vector<FileArray>& arrays) {
     static_cast<void>(text_.word());  // its name
     const std::int64_t count = line_count();
     for (std::int64_t i = 0; i < count; ++i) {
@@ -220,12 +217,12 @@ void LegacyArrays::skip_lookup_table() {
     }
 }
 
-VtkArray LegacyArrays::read_values(const std::string& name,
-                                   std::int64_t components,
-                                   std::int64_t rows,
-                                   std::string_view written_type) {
+FileArray LegacyArrays::read_values(const std::string& name,
+                                    std::int64_t components,
+                                    std::int64_t rows,
+                                    std::string_view written_type) {
     const std::string type = in_small_letters(written_type);
-    VtkArray array{name, components, {}};
+    FileArray array{name, components, {}};
     if (components > text_.size()) {
         text_.fail(std::to_string(components) + " components; the file has fewer bytes");
     }
@@ -246,14 +243,11 @@ VtkArray LegacyArrays::read_values(const std::string& name,
 }
 
 double LegacyArrays::value_of_type(const std::string& type) {
-    if (numbers_.is_text()) {
-        return any_number(text_.next_word("a number"));
+    if (numbers_.is_text() || type == "double") {
+        return numbers_.quantity<double>("a number");
     }
     if (type == "float") {
-        return numbers_.real<float>("a number");
-    }
-    if (type == "double") {
-        return numbers_.real<double>("a number");
+        return numbers_.quantity<float>("a number");
     }
     const bool is_unsigned = type.starts_with("unsigned") || type == "vtktypeuint64";
     switch (bytes_of(type)) {
@@ -270,14 +264,6 @@ double LegacyArrays::value_of_type(const std::string& type) {
             return is_unsigned ? numbers_.real<std::uint64_t>("a number")
                                : numbers_.real<std::int64_t>("a number");
     }
-}
-
-// A quantity need not be finite, as the place of a point is.
-double LegacyArrays::any_number(std::string_view word) {
-    double value = 0;
-    const auto [end, error] = real_from_chars(word.data(), word.data() + word.size(), value);
-    const bool is_number = error == std::errc() && end == word.data() + word.size();
-    return is_number ? value : text_.number(word, "a number");
 }
 
 }  // namespace pent::mesher

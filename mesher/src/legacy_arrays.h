@@ -1,7 +1,7 @@
 #pragma once
 
+#include "file_grid.h"
 #include "number_reader.h"
-#include "vtk_grid.h"
 
 #include <optional>
 #include <string>
@@ -25,7 +25,7 @@ public:
     /// @return         Whether it is one of the keywords of arrays.
     [[nodiscard]] bool read(const std::string& keyword,
                             std::int64_t rows,
-                            std::vector<VtkArray>& arrays);
+                            std::vector<FileArray>& arrays);
 
     /// Skips the arrays of the file itself, behind FIELD.
     void skip_field();
@@ -44,16 +44,15 @@ public:
 
 private:
     [[nodiscard]] std::string next_name();
-    [[nodiscard]] VtkArray read_scalars(std::int64_t rows);
-    void read_field(std::optional<std::int64_t> rows, std::vector<VtkArray>& arrays);
+    [[nodiscard]] FileArray read_scalars(std::int64_t rows);
+    void read_field(std::optional<std::int64_t> rows, std::vector<FileArray>& arrays);
     void skip_strings(std::int64_t count);
     void skip_lookup_table();
-    [[nodiscard]] VtkArray read_values(const std::string& name,
-                                       std::int64_t components,
-                                       std::int64_t rows,
-                                       std::string_view type);
+    [[nodiscard]] FileArray read_values(const std::string& name,
+                                        std::int64_t components,
+                                        std::int64_t rows,
+                                        std::string_view type);
     [[nodiscard]] double value_of_type(const std::string& type);
-    [[nodiscard]] double any_number(std::string_view word);
 
     TextReader& text_;
     NumberReader& numbers_;

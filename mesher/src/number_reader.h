@@ -1,5 +1,6 @@
 #pragma once
 
+#include <pent/real_text.h>
 #include <pent/text_reader.h>
 
 #include <algorithm>
@@ -9,6 +10,7 @@
 #include <limits>
 #include <string>
 #include <string_view>
+#include <system_error>
 #include <type_traits>
 #include <utility>
 
@@ -16,6 +18,16 @@ namespace pent::mesher {
 
 /// How numbers stand in a file.
 enum class Encoding { Text, LittleEndian, BigEndian };
+
+/// A word as a number that need not be finite, as the place of a point is.
+[[nodiscard]] inline double any_number(const TextReader& text,
+                                       std::string_view word,
+                                       std::string_view expected) {
+    double value = 0;
+    const auto [end, error] = real_from_chars(word.data(), word.data() + word.size(), value);
+    const bool is_number = error == std::errc() && end == word.data() + word.size();
+    return is_number ? value : text.number(word, expected);
+}
 
 /// Numbers one after the other: words of a text, over the ends of its lines, or bytes behind the
 /// current line. Every error names the file and the place.
@@ -33,6 +45,13 @@ public:
             return text_.number(text_.next_word(expected), expected);
         }
         return static_cast<double>(take<T>(expected));
+    }
+
+    /// The same of a quantity, which need not be finite in a text either.
+    template <typename T>
+    [[nodiscard]] double quantity(std::string_view expected) {
+        return is_text() ? any_number(text_, text_.next_word(expected), expected)
+                         : real<T>(expected);
     }
 
     /// The next whole number, a `T` where it is not text.

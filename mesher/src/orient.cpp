@@ -1,15 +1,14 @@
 #include "extract.h"
 #include "half_edges.h"
+#include "shell.h"
 
+#include <pent/counted.h>
 #include <pent/error.h>
 #include <pent/mesher/orient.h>
-
-#include <Eigen/Geometry>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numbers>
 #include <string>
 #include <vector>
 
@@ -29,8 +28,8 @@ std::vector<Neighbors> find_neighbors(const Simplices<3>& triangles) {
             throw Error(
                 "a surface to be oriented must be closed and manifold, but an edge of "
                 "triangle "
-                + std::to_string(first->triangle) + " has " + std::to_string(last - first)
-                + " triangles");
+                + std::to_string(first->triangle) + " has "
+                + counted(last - first, "triangle", "triangles"));
         }
         const HalfEdge& a = *first;
         const HalfEdge& b = *std::next(first);
@@ -87,34 +86,7 @@ void flip(Simplices<3>& triangles, Eigen::Index t) {
     std::swap(triangles(1, t), triangles(2, t));
 }
 
-bool is_inside(const Surface& shell, const Eigen::AlignedBox3d& box, const Eigen::Vector3d& point) {
-    return box.contains(point) && std::abs(winding_number(shell, point)) > 0.5;
-}
-
-Eigen::AlignedBox3d bounding_box(const Surface& shell) {
-    Eigen::AlignedBox3d box;
-    for (const auto& point : shell.points.colwise()) {
-        box.extend(Eigen::Vector3d(point));
-    }
-    return box;
-}
-
 }  // namespace
-
-double winding_number(const Surface& surface, const Eigen::Vector3d& point) {
-    double half_angles = 0;
-    for (const auto& t : surface.triangles.colwise()) {
-        const Eigen::Vector3d a = surface.points.col(t[0]) - point;
-        const Eigen::Vector3d b = surface.points.col(t[1]) - point;
-        const Eigen::Vector3d c = surface.points.col(t[2]) - point;
-        const double la = a.norm();
-        const double lb = b.norm();
-        const double lc = c.norm();
-        half_angles += std::atan2(a.cross(b).dot(c),
-                                  la * lb * lc + a.dot(b) * lc + b.dot(c) * la + c.dot(a) * lb);
-    }
-    return half_angles / (2 * std::numbers::pi);
-}
 
 Oriented orient(Surface surface) {
     const Parts parts = agree(find_neighbors(surface.triangles));
@@ -124,33 +96,30 @@ Oriented orient(Surface surface) {
             flip(surface.triangles, t);
         }
     }
-    std::vector<Surface> shells;
-    std::vector<Eigen::AlignedBox3d> boxes;
+    std::vector<Shell> shells;
     std::vector<std::vector<std::uint32_t>> members(parts.count);
     for (std::uint32_t t = 0; t < surface.triangle_count(); ++t) {
         members[parts.part[t]].push_back(t);
     }
     for (const std::vector<std::uint32_t>& triangles : members) {
-        shells.push_back(extract(surface, triangles));
-        boxes.push_back(bounding_box(shells.back()));
+        const Shell& shell = shells.emplace_back(extract(surface, triangles));
+        if (std::abs(shell.volume()) < 1e-14 * std::pow(shell.box().diagonal().norm(), 3)) {
+            throw Error("component " + std::to_string(shells.size() - 1)
+                        + " of the surface is flat: it encloses no volume");
+        }
     }
     Oriented result;
     result.components = parts.count;
     std::vector<bool> flip_shell(shells.size());
     for (std::size_t i = 0; i < shells.size(); ++i) {
-        const Eigen::Vector3d point = shells[i].points.col(0);
+        const Eigen::Vector3d point = surface.points.col(surface.triangles(0, members[i].front()));
         int depth = 0;
         for (std::size_t j = 0; j < shells.size(); ++j) {
-            depth += j != i && is_inside(shells[j], boxes[j], point) ? 1 : 0;
-        }
-        const double volume = enclosed_volume(shells[i]);
-        if (std::abs(volume) < 1e-14 * std::pow(boxes[i].diagonal().norm(), 3)) {
-            throw Error("component " + std::to_string(i)
-                        + " of the surface is flat: it encloses no volume");
+            depth += j != i && shells[j].is_around(point) ? 1 : 0;
         }
         const bool is_cavity = depth % 2 == 1;
         result.cavities += is_cavity ? 1 : 0;
-        flip_shell[i] = (volume < 0) != is_cavity;
+        flip_shell[i] = (shells[i].volume() < 0) != is_cavity;
     }
     for (Eigen::Index t = 0; t < surface.triangle_count(); ++t) {
         if (flip_shell[parts.part[t]]) {

@@ -1,3 +1,4 @@
+#include <pent/counted.h>
 #include <pent/error.h>
 #include <pent/geometry.h>
 #include <pent/mesher/profile.h>
@@ -55,7 +56,8 @@ std::vector<Layer<4>> read_profile(const std::filesystem::path& path) {
         layers.push_back(read_layer(text));
     }
     if (layers.size() < 2) {
-        text.fail(std::to_string(layers.size()) + " layers; expected 2 or more");
+        text.fail(counted(static_cast<std::int64_t>(layers.size()), "layer", "layers")
+                  + "; expected 2 or more");
     }
     if (layers.size() == 2 && layers[0].is_point() && layers[1].is_point()) {
         text.fail("two points and nothing between them");

@@ -1,3 +1,4 @@
+#include "gmsh_arrays.h"
 #include "number_reader.h"
 #include "tet_readers.h"
 
@@ -84,14 +85,15 @@ const ElementType& type_of(const TextReader& text, std::int64_t number) {
 // Nodes have numbers of their own, in any order and with gaps.
 class Nodes {
 public:
-    explicit Nodes(CellSoup& soup) : soup_(soup) {}
+    explicit Nodes(FileGrid& grid) : grid_(grid) {}
 
     void add(const TextReader& text, std::int64_t number, const Eigen::Vector3d& point) {
-        const auto name = static_cast<std::uint32_t>(soup_.points.size());
+        const auto name = static_cast<std::uint32_t>(grid_.soup.points.size());
         if (!names_.try_emplace(number, name).second) {
             text.fail("node " + std::to_string(number) + " is there twice");
         }
-        soup_.points.push_back(point);
+        grid_.soup.points.push_back(point);
+        grid_.point_numbers.push_back(number);
     }
 
     [[nodiscard]] std::uint32_t name(const TextReader& text, std::int64_t number) const {
@@ -103,7 +105,7 @@ public:
     }
 
 private:
-    CellSoup& soup_;
+    FileGrid& grid_;
     std::map<std::int64_t, std::uint32_t> names_;
 };
 
@@ -111,11 +113,14 @@ private:
 class GmshReader {
 public:
     explicit GmshReader(const std::filesystem::path& path)
-        : text_(path, '\0'), numbers_(text_, Encoding::Text), nodes_(soup_) {
-        soup_.has_labels = true;
+        : text_(path, '\0'),
+          numbers_(text_, Encoding::Text),
+          arrays_(text_, numbers_),
+          nodes_(grid_) {
+        grid_.soup.has_labels = true;
     }
 
-    CellSoup read() {
+    FileGrid read() {
         while (text_.next_line()) {
             const std::string section(text_.word());
             if (section == "$MeshFormat") {
@@ -132,16 +137,23 @@ public:
                 version_ == 2 ? read_nodes_2() : read_nodes_4();
             } else if (section == "$Elements") {
                 version_ == 2 ? read_elements_2() : read_elements_4();
+            } else if (section == "$NodeData" || section == "$ElementData") {
+                arrays_.read(section);
+            } else if (section == "$ElementNodeData") {
+                arrays_.leave_out();
+                skip_section("$EndElementNodeData");
             } else if (section.starts_with("$") && !section.starts_with("$End")) {
                 skip_section("$End" + section.substr(1));
             }
         }
         // Without groups volumes are told apart by their own numbers.
-        if (std::all_of(soup_.labels.begin(), soup_.labels.end(),
+        std::vector<std::int64_t>& labels = grid_.soup.labels;
+        if (std::all_of(labels.begin(), labels.end(),
                         [](std::int64_t group) { return group == 0; })) {
-            soup_.labels = std::move(volumes_);
+            labels = std::move(volumes_);
         }
-        return std::move(soup_);
+        arrays_.finish(grid_);
+        return std::move(grid_);
     }
 
 private:
@@ -273,9 +285,9 @@ private:
         std::int64_t done = 0;
         while (done < count) {
             if (numbers_.is_text()) {
-                static_cast<void>(number());  // of the element
+                const std::int64_t element = number();
                 const ElementType& type = type_of(text_, number());
-                read_element_2(type, this->count());
+                read_element_2(element, type, this->count());
                 end_row();
                 ++done;
                 continue;
@@ -284,21 +296,20 @@ private:
             const std::int64_t following = this->count();
             const std::int64_t tags = this->count();
             for (std::int64_t i = 0; i < following; ++i) {
-                static_cast<void>(number());
-                read_element_2(type, tags);
+                read_element_2(number(), type, tags);
             }
             done += std::max<std::int64_t>(following, 1);  // an end for damaged files, too
         }
     }
 
-    void read_element_2(const ElementType& type, std::int64_t tags) {
+    void read_element_2(std::int64_t element, const ElementType& type, std::int64_t tags) {
         Place place;
         for (std::int64_t tag = 0; tag < tags; ++tag) {
             const std::int64_t value = number();
             place.group = tag == 0 ? value : place.group;
             place.entity = tag == 1 ? value : place.entity;
         }
-        read_cell(type, place, [this] { return number(); });
+        read_cell(element, type, place, [this] { return number(); });
     }
 
     void read_nodes_4() {
@@ -338,8 +349,7 @@ private:
             const ElementType& type = type_of(text_, number());
             const std::int64_t count = long_count();
             for (std::int64_t i = 0; i < count; ++i) {
-                static_cast<void>(long_number());  // of the element
-                read_cell(type, place, [this] { return long_number(); });
+                read_cell(long_number(), type, place, [this] { return long_number(); });
                 end_row();
             }
         }
@@ -352,21 +362,23 @@ private:
     };
 
     template <typename Next>
-    void read_cell(const ElementType& type, const Place& place, Next next) {
+    void read_cell(std::int64_t element, const ElementType& type, const Place& place, Next next) {
         cell_.clear();
         for (std::int64_t i = 0; i < type.nodes; ++i) {
             const std::int64_t node = next();
             cell_.push_back(dimension_of(type.kind) == 3 ? nodes_.name(text_, node) : 0);
         }
-        soup_.add(type.kind, cell_, place.group);
+        grid_.soup.add(type.kind, cell_, place.group);
         if (dimension_of(type.kind) == 3) {
+            grid_.solid_cells.push_back(element);
             volumes_.push_back(place.entity);
         }
     }
 
     TextReader text_;
     NumberReader numbers_;
-    CellSoup soup_;
+    GmshArrays arrays_;
+    FileGrid grid_;
     Nodes nodes_;
     std::map<std::int64_t, std::int64_t> groups_;  // of volumes that are in one
     std::map<std::int64_t, std::int64_t> wholes_;  // of parts: the volume of each
@@ -377,7 +389,7 @@ private:
 
 }  // namespace
 
-CellSoup read_gmsh(const std::filesystem::path& path) {
+FileGrid read_gmsh(const std::filesystem::path& path) {
     return GmshReader(path).read();
 }
 

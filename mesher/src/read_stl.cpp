@@ -1,5 +1,6 @@
 #include "surface_readers.h"
 
+#include <pent/counted.h>
 #include <pent/error.h>
 #include <pent/text_reader.h>
 
@@ -83,7 +84,7 @@ TriangleSoup read_text(TextReader& text) {
             ++corners;
         } else if (keyword == "endloop") {
             if (corners != 3) {
-                text.fail("a loop of " + std::to_string(corners) + " vertices; expected 3");
+                text.fail("a loop of " + counted(corners, "vertex", "vertices") + "; expected 3");
             }
             add_last_triangle(builder);
             corners = 0;

@@ -1,3 +1,4 @@
+#include "number_reader.h"
 #include "tet_readers.h"
 
 #include <pent/text_reader.h>
@@ -5,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace pent::mesher {
@@ -17,14 +19,40 @@ void next_line(TextReader& text, const char* expected) {
     }
 }
 
+// How many of something a first line says; it may end before.
+std::int64_t optional_count(TextReader& text, std::string_view expected) {
+    const std::string_view word = text.word();
+    return word.empty() ? 0 : text.count(word, expected);
+}
+
+// The attributes of a point or a tetrahedron, from the `first` one on. The first line begins the
+// arrays: it has as many words, so no count is believed.
+void read_attributes(TextReader& text,
+                     const std::string& name,
+                     std::int64_t first,
+                     std::int64_t count,
+                     bool is_first_line,
+                     std::vector<FileArray>& arrays) {
+    for (std::int64_t i = first; i <= count; ++i) {
+        const double value = any_number(text, text.word(), "an attribute");
+        if (is_first_line) {
+            arrays.push_back({name + std::to_string(i), 1, {}});
+        }
+        arrays[static_cast<std::size_t>(i - first)].values.push_back(value);
+    }
+}
+
 // Points are numbered from 0 or 1: by the number of the first one.
-std::int64_t read_nodes(TextReader& text, CellSoup& soup) {
+std::int64_t read_nodes(TextReader& text, FileGrid& grid) {
     next_line(text, "the number of points");
     const std::int64_t points = text.count(text.word(), "the number of points");
     const std::int64_t dimension = text.integer(text.word(), "the dimension");
     if (dimension != 3) {
         text.fail("dimension " + std::to_string(dimension) + "; expected 3");
     }
+    const std::int64_t attributes = optional_count(text, "the number of attributes");
+    const bool has_markers = optional_count(text, "0 or 1 boundary markers") > 0;
+    FileArray markers{"boundary_marker", 1, {}};
     std::int64_t first = 0;
     for (std::int64_t i = 0; i < points; ++i) {
         next_line(text, "a point");
@@ -36,7 +64,14 @@ std::int64_t read_nodes(TextReader& text, CellSoup& soup) {
             text.fail("point number " + std::to_string(number) + "; expected "
                       + std::to_string(i == 0 ? 0 : first + i) + (i == 0 ? " or 1" : ""));
         }
-        soup.points.push_back(text.point());
+        grid.soup.points.push_back(text.point());
+        read_attributes(text, "attribute", 1, attributes, i == 0, grid.point_arrays);
+        if (has_markers) {
+            markers.values.push_back(any_number(text, text.word(), "a boundary marker"));
+        }
+    }
+    if (has_markers) {
+        grid.point_arrays.push_back(std::move(markers));
     }
     return first;
 }
@@ -53,16 +88,15 @@ std::int64_t read_label(TextReader& text) {
     return static_cast<std::int64_t>(std::clamp(label, -1.0, 1e9));
 }
 
-void read_elements(TextReader& text, std::int64_t first, CellSoup& soup) {
+void read_elements(TextReader& text, std::int64_t first, FileGrid& grid) {
     next_line(text, "the number of tetrahedra");
     const std::int64_t tets = text.count(text.word(), "the number of tetrahedra");
     const std::int64_t corners = text.integer(text.word(), "the number of corners");
-    const std::string_view word = text.word();
-    const std::int64_t attributes =
-        word.empty() ? 0 : text.integer(word, "the number of attributes");
+    const std::int64_t attributes = optional_count(text, "the number of attributes");
     if (corners != 4 && corners != 10) {
         text.fail(std::to_string(corners) + " corners; expected 4 or 10");
     }
+    CellSoup& soup = grid.soup;
     const auto points = static_cast<std::int64_t>(soup.points.size());
     std::vector<std::uint32_t> nodes(corners);  // those beyond the fourth are middles of edges
     soup.has_labels = attributes > 0;
@@ -74,18 +108,20 @@ void read_elements(TextReader& text, std::int64_t first, CellSoup& soup) {
             node = text.index(number - first, points);
         }
         soup.add(CellKind::Tetrahedron, nodes, attributes > 0 ? read_label(text) : 0);
+        // The first is the region.
+        read_attributes(text, "region_attribute", 2, attributes, i == 0, grid.cell_arrays);
     }
 }
 
 }  // namespace
 
-CellSoup read_tetgen(const std::filesystem::path& path) {
-    CellSoup soup;
+FileGrid read_tetgen(const std::filesystem::path& path) {
+    FileGrid grid;
     TextReader nodes(std::filesystem::path(path).replace_extension(".node"));
-    const std::int64_t first = read_nodes(nodes, soup);
+    const std::int64_t first = read_nodes(nodes, grid);
     TextReader elements(std::filesystem::path(path).replace_extension(".ele"));
-    read_elements(elements, first, soup);
-    return soup;
+    read_elements(elements, first, grid);
+    return grid;
 }
 
 }  // namespace pent::mesher

@@ -2,6 +2,7 @@
 #include "cut_cells.h"
 #include "spacetime/moving_fields.h"
 #include "tet_readers.h"
+#include "vtk_grid.h"
 
 #include <pent/error.h>
 #include <pent/input_path.h>
@@ -17,13 +18,22 @@ namespace pent::mesher {
 
 namespace {
 
-using Reader = CellSoup (*)(const std::filesystem::path&);
+using Reader = FileGrid (*)(const std::filesystem::path&);
 
-constexpr std::array<std::pair<std::string_view, Reader>, 5> kReaders = {{{".node", read_tetgen},
-                                                                          {".ele", read_tetgen},
-                                                                          {".mesh", read_medit},
-                                                                          {".msh", read_gmsh},
-                                                                          {".tobj", read_tobj}}};
+// Of formats that have no arrays.
+template <CellSoup (*read)(const std::filesystem::path&)>
+FileGrid cells_alone(const std::filesystem::path& path) {
+    FileGrid grid;
+    grid.soup = read(path);
+    return grid;
+}
+
+constexpr std::array<std::pair<std::string_view, Reader>, 5> kReaders = {
+    {{".node", read_tetgen},
+     {".ele", read_tetgen},
+     {".mesh", cells_alone<read_medit>},
+     {".msh", read_gmsh},
+     {".tobj", cells_alone<read_tobj>}}};
 
 Reader reader_for(const std::filesystem::path& path, const std::string& format) {
     const std::string ending = format_of(path, format);
@@ -43,35 +53,48 @@ std::uint16_t region_of(std::int64_t label, const std::string& name) {
     return static_cast<std::uint16_t>(label);
 }
 
-// The values of arrays that are finite, as quantities.
-std::vector<VertexField> fields_of(const std::vector<VtkArray>& arrays,
+// What the file calls some of its points or cells.
+// @param numbers  Of all of them; empty: from 0.
+std::vector<std::int64_t> numbers_of(const std::vector<std::uint32_t>& some,
+                                     const std::vector<std::int64_t>& numbers) {
+    std::vector<std::int64_t> result;
+    for (const std::uint32_t one : some) {
+        result.push_back(numbers.empty() ? one : numbers[one]);
+    }
+    return result;
+}
+
+// The values of arrays that are there and finite, as quantities.
+// @param things  "points" or "cells".
+std::vector<VertexField> fields_of(const std::vector<FileArray>& arrays,
                                    const CarriedArrays& carried,
-                                   const std::vector<std::int64_t>& tuples,
+                                   const std::vector<std::int64_t>& numbers,
+                                   const std::string& things,
                                    std::vector<std::string>& left_out) {
     std::vector<VertexField> fields;
     for (std::size_t i = 0; i < carried.arrays.size(); ++i) {
-        Eigen::MatrixXd values = values_at(*find_array(arrays, carried.arrays[i]), tuples);
+        Eigen::MatrixXd values = values_at(*find_array(arrays, carried.arrays[i]), numbers);
         if (values.allFinite()) {
             fields.push_back({carried.names[i], std::move(values)});
         } else {
-            left_out.push_back("array " + carried.arrays[i] + ", which is not finite everywhere");
+            left_out.push_back("array " + carried.arrays[i] + ", which some " + things
+                               + " do not have in finite numbers");
         }
     }
     return fields;
 }
 
 // Gives the mesh what the arrays of its points and cells have.
-void carry_arrays(const VtkGrid& grid, const NumberedTetrahedra& numbered, TetrahedraFile& file) {
-    std::vector<std::string> left_out;
+void carry_arrays(const FileGrid& grid, const NumberedTetrahedra& numbered, TetrahedraFile& file) {
+    std::vector<std::string> left_out = grid.left_out;
     const CarriedArrays of_points = carried_point_arrays(grid, left_out);
     const CarriedArrays of_cells = carried_cell_arrays(grid, file.region_array, left_out);
-    const std::vector<std::int64_t> points(numbered.points.begin(), numbered.points.end());
-    std::vector<std::int64_t> cells;
-    for (const std::uint32_t cell : numbered.cells) {
-        cells.push_back(grid.solid_cells[cell]);
-    }
-    file.extras.vertex_fields = fields_of(grid.point_arrays, of_points, points, left_out);
-    for (VertexField& field : fields_of(grid.cell_arrays, of_cells, cells, left_out)) {
+    file.extras.vertex_fields =
+        fields_of(grid.point_arrays, of_points, numbers_of(numbered.points, grid.point_numbers),
+                  "points", left_out);
+    for (VertexField& field :
+         fields_of(grid.cell_arrays, of_cells, numbers_of(numbered.cells, grid.solid_cells),
+                   "cells", left_out)) {
         const bool is_fiber = is_fiber_name(field.name) && field.values.rows() == 3;
         if (is_fiber && file.mesh.fibers.cols() == 0) {
             file.mesh.fibers = std::move(field.values);
@@ -82,22 +105,6 @@ void carry_arrays(const VtkGrid& grid, const NumberedTetrahedra& numbered, Tetra
     for (const std::string& one : left_out) {
         file.left_out += (file.left_out.empty() ? "" : ", ") + one;
     }
-}
-
-TetrahedraFile read_from_grid(const std::filesystem::path& path,
-                              const std::string& format,
-                              const std::string& asked) {
-    VtkGrid grid = read_grid(path, format);
-    std::string region_name;
-    if (const VtkArray* regions = region_array(grid, asked, path)) {
-        region_name = regions->name;
-        label_cells(grid, *regions);
-    }
-    NumberedTetrahedra numbered = number_tetrahedra(grid.soup, input_name(path));
-    TetrahedraFile file = std::move(numbered.file);
-    file.region_array = region_name;
-    carry_arrays(grid, numbered, file);
-    return file;
 }
 
 }  // namespace
@@ -163,15 +170,25 @@ TetrahedraFile read_tetrahedra(const std::filesystem::path& path,
                                const std::string& region_array) {
     const std::string name = input_name(path);
     require_file(path);
+    FileGrid grid;
+    std::string region_name;
     if (has_region_arrays(path, format)) {
-        return read_from_grid(path, format, region_array);
-    }
-    const Reader reader = reader_for(path, format);
-    if (reader == nullptr) {
+        grid = read_grid(path, format);
+        if (const FileArray* regions = mesher::region_array(grid, region_array, path)) {
+            region_name = regions->name;
+            label_cells(grid, *regions);
+        }
+    } else if (const Reader reader = reader_for(path, format)) {
+        grid = reader(path);
+    } else {
         throw Error(name
                     + ": tetrahedra are in .node and .ele, .mesh, .msh, .vtk, .vtu or .tobj files");
     }
-    return number_tetrahedra(reader(path), name).file;
+    NumberedTetrahedra numbered = number_tetrahedra(grid.soup, name);
+    TetrahedraFile file = std::move(numbered.file);
+    file.region_array = region_name;
+    carry_arrays(grid, numbered, file);
+    return file;
 }
 
 }  // namespace pent::mesher

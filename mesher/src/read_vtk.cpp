@@ -2,6 +2,8 @@
 #include "number_reader.h"
 #include "vtk_grid.h"
 
+#include <pent/counted.h>
+
 #include <algorithm>
 #include <string>
 #include <utility>
@@ -26,7 +28,7 @@ public:
     explicit VtkReader(const std::filesystem::path& path)
         : text_(path, '\0'), numbers_(text_, Encoding::Text), arrays_(text_, numbers_) {}
 
-    VtkGrid read() {
+    FileGrid read() {
         read_start();
         while (text_.next_line()) {
             const std::string word(text_.word());
@@ -149,8 +151,8 @@ private:
     void read_types() {
         const std::int64_t count = arrays_.line_count();
         if (count != cells_.count()) {
-            text_.fail(std::to_string(count) + " types of " + std::to_string(cells_.count())
-                       + " cells");
+            text_.fail(counted(count, "type", "types") + " of "
+                       + counted(cells_.count(), "cell", "cells"));
         }
         const Fail fail = [this](const std::string& message) { text_.fail(message); };
         for (std::int64_t cell = 0; cell < count; ++cell) {
@@ -196,13 +198,13 @@ private:
     TextReader text_;
     NumberReader numbers_;
     LegacyArrays arrays_;
-    VtkGrid grid_;
+    FileGrid grid_;
     Cells cells_;
 };
 
 }  // namespace
 
-VtkGrid read_vtk_grid(const std::filesystem::path& path) {
+FileGrid read_vtk_grid(const std::filesystem::path& path) {
     return VtkReader(path).read();
 }
 

@@ -23,7 +23,7 @@ public:
           file_(parse_xml(text_, name_)),
           encoding_(encoding_of(file_, name_, text_.size())) {}
 
-    VtkGrid read() {
+    FileGrid read() {
         const XmlElement& piece = find_piece();
         const std::int64_t points = count_of(piece, "NumberOfPoints");
         const std::int64_t cells = count_of(piece, "NumberOfCells");
@@ -127,7 +127,7 @@ private:
         }
     }
 
-    void read_arrays(const XmlElement* data, std::int64_t count, std::vector<VtkArray>& arrays) {
+    void read_arrays(const XmlElement* data, std::int64_t count, std::vector<FileArray>& arrays) {
         if (data == nullptr) {
             return;
         }
@@ -144,12 +144,12 @@ private:
     std::string text_;
     XmlFile file_;
     VtkEncoding encoding_;
-    VtkGrid grid_;
+    FileGrid grid_;
 };
 
 }  // namespace
 
-VtkGrid read_vtu_grid(const std::filesystem::path& path) {
+FileGrid read_vtu_grid(const std::filesystem::path& path) {
     return VtuReader(path).read();
 }
 

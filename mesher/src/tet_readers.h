@@ -1,6 +1,7 @@
 #pragma once
 
 #include "cells.h"
+#include "file_grid.h"
 
 #include <pent/mesher/read_tetrahedra.h>
 
@@ -25,9 +26,9 @@ struct NumberedTetrahedra {
 /// Readers of one format each. Every one throws an Error that names file and line (or byte) for
 /// what is damaged, and allocates no more than the size of the file bears out.
 
-[[nodiscard]] CellSoup read_tetgen(const std::filesystem::path& path);
+[[nodiscard]] FileGrid read_tetgen(const std::filesystem::path& path);
 [[nodiscard]] CellSoup read_medit(const std::filesystem::path& path);
-[[nodiscard]] CellSoup read_gmsh(const std::filesystem::path& path);
+[[nodiscard]] FileGrid read_gmsh(const std::filesystem::path& path);
 [[nodiscard]] CellSoup read_tobj(const std::filesystem::path& path);
 
 }  // namespace pent::mesher

@@ -5,12 +5,14 @@
 
 #include <pent/error.h>
 #include <pent/formatted.h>
-#include <pent/mesher/orient.h>
 
+#include <algorithm>
+#include <array>
 #include <cassert>
 #include <cmath>
 #include <cstdio>
 #include <map>
+#include <set>
 #include <vector>
 
 namespace pent::mesher {
@@ -109,30 +111,71 @@ double volume(const Answer& answer, Eigen::Index tet) {
     return cell_volume<3>(answer.points, answer.tets, tet);
 }
 
-// TetGen fills cavities too, as regions of their own. The largest tet of each region tells whether
-// the region is in the body.
-std::map<double, bool> regions_inside(const Answer& answer, const Surface& surface) {
-    std::map<double, Eigen::Index> largest;
-    for (Eigen::Index t = 0; t < answer.tets.cols(); ++t) {
-        const auto [place, is_new] = largest.try_emplace(answer.regions[t], t);
-        if (!is_new && std::abs(volume(answer, t)) > std::abs(volume(answer, place->second))) {
-            place->second = t;
+// A facet of a tet; its corners ascend.
+struct Facet {
+    std::array<std::uint32_t, 3> corners;
+    Eigen::Index tet;
+};
+
+// Facets of two tets follow one another.
+std::vector<Facet> sorted_facets(const Simplices<4>& tets) {
+    std::vector<Facet> facets;
+    facets.reserve(static_cast<std::size_t>(4 * tets.cols()));
+    for (Eigen::Index tet = 0; tet < tets.cols(); ++tet) {
+        for (int k = 0; k < 4; ++k) {
+            Facet facet{{tets((k + 1) % 4, tet), tets((k + 2) % 4, tet), tets((k + 3) % 4, tet)},
+                        tet};
+            std::sort(facet.corners.begin(), facet.corners.end());
+            facets.push_back(facet);
         }
     }
+    std::sort(facets.begin(), facets.end(),
+              [](const Facet& a, const Facet& b) { return a.corners < b.corners; });
+    return facets;
+}
+
+// TetGen fills cavities, too, as regions of their own. Nothing but the surface divides regions from
+// one another, and all of them from what is outside: behind each of its sides is the other of body
+// and no body.
+std::map<double, bool> regions_inside(const Answer& answer) {
+    const std::set<double> regions(answer.regions.begin(), answer.regions.end());
+    if (regions.size() == 1) {
+        return {{*regions.begin(), true}};
+    }
     std::map<double, bool> inside;
-    for (const auto& [region, tet] : largest) {
-        Eigen::Vector3d center = Eigen::Vector3d::Zero();
-        for (int i = 0; i < 4; ++i) {
-            center += answer.points.col(answer.tets(i, tet)) / 4;
+    std::map<double, std::set<double>> behind;
+    const std::vector<Facet> facets = sorted_facets(answer.tets);
+    for (std::size_t i = 0; i < facets.size(); ++i) {
+        const double region = answer.regions[facets[i].tet];
+        if (i + 1 == facets.size() || facets[i].corners != facets[i + 1].corners) {
+            inside[region] = true;  // there is no tet behind this facet
+            continue;
         }
-        inside[region] = winding_number(surface, center) > 0.5;
+        ++i;
+        if (const double other = answer.regions[facets[i].tet]; other != region) {
+            behind[region].insert(other);
+            behind[other].insert(region);
+        }
+    }
+    std::vector<double> open;
+    for (const auto& [region, is_inside] : inside) {
+        open.push_back(region);
+    }
+    while (!open.empty()) {
+        const double region = open.back();
+        open.pop_back();
+        for (const double other : behind[region]) {
+            if (inside.try_emplace(other, !inside.at(region)).second) {
+                open.push_back(other);
+            }
+        }
     }
     return inside;
 }
 
 // The tets in the body, positively oriented; points only cavities use are left out.
-SimplexMesh<3> body(const Answer& answer, const Surface& surface) {
-    const std::map<double, bool> inside = regions_inside(answer, surface);
+SimplexMesh<3> body(const Answer& answer) {
+    const std::map<double, bool> inside = regions_inside(answer);
     std::vector<Eigen::Index> kept;
     std::vector<std::uint32_t> name(answer.points.cols(), 0);
     for (Eigen::Index t = 0; t < answer.tets.cols(); ++t) {
@@ -183,7 +226,7 @@ Tetrahedra fill_with_tetgen(const Surface& surface, const TetrahedraOptions& opt
         throw Error("TetGen " + wanted + " " + explain(result, options));
     }
     Tetrahedra tetrahedra;
-    tetrahedra.mesh = body(read_answer(reply.get()), surface);
+    tetrahedra.mesh = body(read_answer(reply.get()));
     tetrahedra.generator = "TetGen " + wanted;
     return tetrahedra;
 }

@@ -1,5 +1,6 @@
 #include "generators.h"
 
+#include <pent/counted.h>
 #include <pent/error.h>
 #include <pent/formatted.h>
 #include <pent/mesher/links.h>
@@ -43,8 +44,8 @@ void accept(Tetrahedra& tetrahedra, double expected, double largest_error) {
         throw Error(tetrahedra.generator + " is not sound: " + describe_faults(proof, 3));
     }
     if (const LinkReport links = check_links(mesh); links.faulty > 0) {
-        throw Error(tetrahedra.generator + " touches itself at " + std::to_string(links.faulty)
-                    + " points");
+        throw Error(tetrahedra.generator + " touches itself at "
+                    + counted(links.faulty, "point", "points"));
     }
     const double flattest = measure_quality(mesh).mean_ratio.min;
     if (flattest < kFlattest) {

@@ -111,13 +111,13 @@ std::uint32_t checked_corner(std::int64_t corner, std::size_t points, const Fail
     return static_cast<std::uint32_t>(corner);
 }
 
-const VtkArray& array_asked_for(const VtkGrid& grid,
-                                const std::string& name,
-                                const std::filesystem::path& path) {
-    const VtkArray* found = find_array(grid.cell_arrays, name);
+const FileArray& array_asked_for(const FileGrid& grid,
+                                 const std::string& name,
+                                 const std::filesystem::path& path) {
+    const FileArray* found = find_array(grid.cell_arrays, name);
     if (found == nullptr || found->components != 1) {
         std::string all;
-        for (const VtkArray& array : grid.cell_arrays) {
+        for (const FileArray& array : grid.cell_arrays) {
             all += (all.empty() ? "" : ", ") + in_quotes(array.name);
         }
         throw Error(input_name(path) + ": no array \"" + name
@@ -136,7 +136,7 @@ const VtkArray& array_asked_for(const VtkGrid& grid,
 
 }  // namespace
 
-void add_cell(VtkGrid& grid,
+void add_cell(FileGrid& grid,
               std::int64_t type,
               std::span<const std::int64_t> corners,
               const Fail& fail) {
@@ -169,16 +169,7 @@ void add_cell(VtkGrid& grid,
     }
 }
 
-const VtkArray* find_array(const std::vector<VtkArray>& arrays, std::string_view name) {
-    for (const VtkArray& array : arrays) {
-        if (array.name == name) {
-            return &array;
-        }
-    }
-    return nullptr;
-}
-
-std::optional<std::uint16_t> label_of(const VtkArray& array, std::int64_t cell) {
+std::optional<std::uint16_t> label_of(const FileArray& array, std::int64_t cell) {
     const double value = array.values[static_cast<std::size_t>(cell)];
     if (!(value >= 0 && value <= std::numeric_limits<std::uint16_t>::max())
         || value != std::floor(value)) {
@@ -187,19 +178,19 @@ std::optional<std::uint16_t> label_of(const VtkArray& array, std::int64_t cell) 
     return static_cast<std::uint16_t>(value);
 }
 
-const VtkArray* region_array(const VtkGrid& grid,
-                             const std::string& asked,
-                             const std::filesystem::path& path) {
+const FileArray* region_array(const FileGrid& grid,
+                              const std::string& asked,
+                              const std::filesystem::path& path) {
     if (!asked.empty()) {
         return &array_asked_for(grid, asked, path);
     }
-    const auto has_labels = [&](const VtkArray& array) {
+    const auto has_labels = [&](const FileArray& array) {
         return array.components == 1
                && std::all_of(grid.solid_cells.begin(), grid.solid_cells.end(),
                               [&](std::int64_t cell) { return label_of(array, cell).has_value(); });
     };
     for (const std::string_view name : kRegionNames) {
-        for (const VtkArray& array : grid.cell_arrays) {
+        for (const FileArray& array : grid.cell_arrays) {
             if (plain(array.name) == name && has_labels(array)) {
                 return &array;
             }
@@ -208,14 +199,14 @@ const VtkArray* region_array(const VtkGrid& grid,
     return nullptr;
 }
 
-void label_cells(VtkGrid& grid, const VtkArray& regions) {
+void label_cells(FileGrid& grid, const FileArray& regions) {
     grid.soup.has_labels = true;
     for (std::size_t i = 0; i < grid.solid_cells.size(); ++i) {
         grid.soup.labels[i] = *label_of(regions, grid.solid_cells[i]);
     }
 }
 
-VtkGrid read_grid(const std::filesystem::path& path, const std::string& format) {
+FileGrid read_grid(const std::filesystem::path& path, const std::string& format) {
     return format_of(path, format) == ".vtu" ? read_vtu_grid(path) : read_vtk_grid(path);
 }
 

@@ -83,7 +83,8 @@ PENT_PLUGIN_API const uint32_t* pent_boundary(pent_simulation* simulation,
 
 /** The slice of a body by the hyperplane normal . x = offset: `normal` has four numbers and any
  * length but 0, `offset` is in m times that length. In three dimensions its whole surface; `normal`
- * may be NULL then. */
+ * may be NULL then. After turns, or with smooth normals, it is pent_slice_turned() of the stored
+ * mesh of the body at pent_positions(). */
 PENT_PLUGIN_API int pent_slice(pent_simulation* simulation,
                                int body,
                                const double* normal,
@@ -138,7 +139,8 @@ PENT_PLUGIN_API int pent_set_state(pent_simulation* simulation,
                                    const double* velocities);
 
 /** All that goes from one step to the next, in memory, until pent_free_state(). It fits a
- * simulation of the same bodies and obstacles, which then goes on to the bit. */
+ * simulation of the same bodies and obstacles with the same time step; one of the same scene goes
+ * on to the bit. */
 PENT_PLUGIN_API pent_state* pent_save(const pent_simulation* simulation);
 PENT_PLUGIN_API int pent_restore(pent_simulation* simulation, const pent_state* state);
 PENT_PLUGIN_API int pent_free_state(pent_state* state);

@@ -27,8 +27,14 @@ struct SeenSurface {
     Eigen::VectorXd weights;
 };
 
-/// Those of bodies that were asked for.
-using Boundaries = std::map<int, std::vector<std::uint32_t>>;
+/// The boundary of a body, found where it is first asked for.
+struct BodyBoundary {
+    std::vector<std::uint32_t> facets;
+    std::shared_ptr<const void> index;  // viewer::Boundary of the dimension, for slices
+};
+
+/// Those of bodies that were asked for, by their numbers.
+using Boundaries = std::map<int, BodyBoundary>;
 
 /// Simulations and states of the dimensions that scenes may have here.
 template <int... Dims>
@@ -53,7 +59,11 @@ struct Opened {
     std::mutex in_use;
 };
 
-using Saved = Offered::Snapshots;
+/// A state, and the time step of its simulation: it counts time in steps, and BDF2 looks back one.
+struct Saved {
+    Offered::Snapshots snapshot;
+    double time_step = 0;  // s
+};
 
 /// Arrays of a simulation that outlive it.
 struct Kept {

@@ -147,7 +147,7 @@ int pent_step(pent_simulation* simulation, pent_step_report* report) {
 
 pent_state* pent_save(const pent_simulation* simulation) {
     return with<pent_state*>(simulation, nullptr, [](auto& held, Opened& /*opened*/) {
-        return states().add(std::make_shared<Saved>(held.save()));
+        return states().add(std::make_shared<Saved>(Saved{held.save(), held.scene().dt()}));
     });
 }
 
@@ -155,9 +155,15 @@ int pent_restore(pent_simulation* simulation, const pent_state* state) {
     return with(simulation, -1, [&](auto& held, Opened& /*opened*/) {
         constexpr int kDim = kDimOf<std::remove_reference_t<decltype(held)>>;
         const std::shared_ptr<Saved> saved = states().find(state, "state");
-        const auto* snapshot = std::get_if<simulator::Snapshot<kDim>>(saved.get());
+        const auto* snapshot = std::get_if<simulator::Snapshot<kDim>>(&saved->snapshot);
         if (snapshot == nullptr) {
             throw Error("the state is of a simulation of another dimension");
+        }
+        if (saved->time_step != held.scene().dt()) {
+            throw Error("the state is of a simulation with steps of "
+                        + std::to_string(saved->time_step) + " s; this one has steps of "
+                        + std::to_string(held.scene().dt())
+                        + " s: set positions and velocities instead");
         }
         held.restore(*snapshot);
         return 0;

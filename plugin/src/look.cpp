@@ -145,15 +145,15 @@ const uint32_t* pent_boundary(pent_simulation* simulation, int body, int64_t* co
         simulation, body, nullptr, [&](auto& held, Opened& opened) -> const uint32_t* {
             constexpr int kDim = kDimOf<std::remove_reference_t<decltype(held)>>;
             require(count, "count");
-            const auto [at, is_new] = opened.boundaries->try_emplace(body);
-            if (is_new) {
+            std::vector<std::uint32_t>& found = (*opened.boundaries)[body].facets;
+            if (found.empty()) {  // of a body it never is
                 const auto& mesh = held.mesh(body);
                 const Simplices<kDim> facets =
                     match_facets<kDim>(mesh.cells, mesh.vertex_count()).boundary;
-                at->second.assign(facets.data(), facets.data() + facets.size());
+                found.assign(facets.data(), facets.data() + facets.size());
             }
-            *count = static_cast<int64_t>(at->second.size()) / kDim;
-            return at->second.data();
+            *count = static_cast<int64_t>(found.size()) / kDim;
+            return found.data();
         });
 }
 

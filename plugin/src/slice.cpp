@@ -93,6 +93,16 @@ const viewer::Boundary<Dim>& indexed(StoredMesh& stored, const SimplexMesh<Dim>&
     return *static_cast<const viewer::Boundary<Dim>*>(stored.index.get());
 }
 
+// The same of a body: no step changes which vertices its facets have.
+template <int Dim>
+const viewer::Boundary<Dim>& indexed(BodyBoundary& kept, const SimplexMesh<Dim>& mesh) {
+    if (kept.index == nullptr) {
+        kept.index = std::make_shared<const viewer::Boundary<Dim>>(
+            viewer::make_boundary<Dim>(mesh, "the mesh"));
+    }
+    return *static_cast<const viewer::Boundary<Dim>*>(kept.index.get());
+}
+
 // Where the vertices of a stored mesh are: as a host says, or at rest.
 template <int Dim>
 Positions<Dim> places_of(const StoredMesh& stored,
@@ -173,7 +183,7 @@ int pent_slice(pent_simulation* simulation,
         constexpr int kDim = kDimOf<std::remove_reference_t<decltype(held)>>;
         require(surface, "surface");
         const viewer::FramedHyperplane plane = hyperplane<kDim>(normal, offset);
-        const auto boundary = viewer::make_boundary<kDim>(held.mesh(body), "the mesh");
+        const auto& boundary = indexed<kDim>((*opened.boundaries)[body], held.mesh(body));
         *surface =
             show(section<kDim>(boundary, held.positions(body), plane), plane, opened.surface);
         return 0;

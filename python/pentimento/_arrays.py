@@ -19,6 +19,9 @@ def _array(value: Any, kinds: str, name: str, wanted: str) -> NDArray[Any]:
         raise ValueError(f"{name}: rows of different lengths; expected {wanted}") from None
     if array.dtype.kind not in kinds and array.size > 0:
         raise TypeError(f"{name}: found {array.dtype}; expected {wanted}")
+    # What is under a mask is whatever was there.
+    if isinstance(value, np.ma.MaskedArray) and np.any(value.mask):
+        raise ValueError(f"{name}: found masked values; expected {wanted}, all of them there")
     return array
 
 
@@ -29,7 +32,8 @@ def _shape_text(shape: tuple[int | str, ...]) -> str:
 def floats(value: ArrayLike, shape: tuple[int | str, ...], name: str) -> Floats:
     """`value` as contiguous doubles; sides of `shape` that are words may be of any length.
 
-    Raises a TypeError for what is not real numbers, a ValueError for another shape.
+    Raises a TypeError for what is not real numbers, a ValueError for another shape or values that
+    are masked.
     """
     array = _array(value, "iuf", name, "real numbers")
     fits = len(array.shape) == len(shape) and all(
@@ -50,8 +54,8 @@ def indices(
 ) -> NDArray[Any]:
     """`value` as contiguous whole numbers from 0 up to, not including, `below`.
 
-    Raises a TypeError for what is not whole numbers, a ValueError for another shape, an IndexError
-    for a number out of range.
+    Raises a TypeError for what is not whole numbers, a ValueError for another shape or values that
+    are masked, an IndexError for a number out of range.
     """
     array = _array(value, "iu", name, "whole numbers")
     if len(array.shape) != len(shape) or any(

@@ -98,6 +98,7 @@ class Sight:
 
     @property
     def obstacle_count(self) -> int:
+        """How many obstacles there are."""
         with self._turn:
             return int(library().pent_obstacle_count(self._number))
 
@@ -163,7 +164,9 @@ class Sight:
         offset: float = 0.0,
     ) -> Surface:
         """The slice of a body by the hyperplane normal . x = offset, m; in three dimensions its
-        whole surface, whatever normal and offset. A copy."""
+        whole surface, whatever normal and offset. A copy. After turns, or with smooth normals, it
+        is `mesh.slice(offset=offset, points=simulation.positions(body), rotate=turns,
+        shading=True)` of the body's mesh."""
         across = None if self._dimension == 3 else floats(normal, (4,), "normal")
         height = real(offset, "offset")
         with self._turn:

@@ -140,10 +140,12 @@ class Mesh:
 
     @property
     def vertex_count(self) -> int:
+        """How many vertices there are."""
         return int(self._info.arrays.vertices)
 
     @property
     def cell_count(self) -> int:
+        """How many cells there are: triangles, tetrahedra or pentachora."""
         return int(self._info.arrays.cell_count)
 
     @property

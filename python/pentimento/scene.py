@@ -113,6 +113,7 @@ class Scene:
 
     @property
     def steps_per_frame(self) -> int:
+        """How many time steps go from one frame to the next."""
         return int(self._tables["scene"]["steps_per_frame"])
 
     def mesh(self, body: str) -> Mesh:

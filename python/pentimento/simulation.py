@@ -178,8 +178,9 @@ class Simulation(Sight):
             return State(Handle(library().pent_save(self._number), library().pent_free_state))
 
     def restore(self, state: State) -> None:
-        """Goes back to a state, of this simulation or one of the same bodies and obstacles, and
-        from there on to the bit."""
+        """Goes back to a state, of this simulation or one of the same bodies, obstacles and time
+        step, and from there on, with the same scene to the bit. To go on with another time step
+        set_state() takes positions and velocities."""
         if not isinstance(state, State):
             raise TypeError(f"state: found {type(state).__name__}; expected what save() gives")
         with self._turn:

@@ -158,6 +158,12 @@ class View:
             self._last[body] = held
         return held[1:]
 
+    def __repr__(self) -> str:
+        bodies = ", ".join(self.bodies)
+        return (
+            f"<pentimento.View: {self.path}, {self.dimension}D, {bodies},"
+            f" {len(self.frames)} frame{'s' * (len(self.frames) != 1)}>"
+        )
 
     def _quantities(self, body: str, frame: Frame) -> dict[str, Floats]:
         """At the vertices of the mesh."""

@@ -185,6 +185,16 @@ def test_any_order_of_memory_and_any_type_of_numbers_is_taken():
         np.testing.assert_array_equal(mesh.cells, cells)
 
 
+def test_what_is_masked_is_not_taken_for_numbers():
+    points, cells = box(4)
+    whole = Mesh(np.ma.array(points), np.ma.array(cells))  # nothing of these is masked
+    np.testing.assert_array_equal(whole.points, points)
+    with pytest.raises(ValueError, match="points: found masked values; expected real numbers"):
+        Mesh(np.ma.masked_greater(points, 0.5), cells)
+    with pytest.raises(ValueError, match="cells: found masked values; expected whole numbers"):
+        Mesh(points, np.ma.masked_equal(cells, 3))
+
+
 @pytest.mark.parametrize(
     ("change", "kind", "words"),
     [

@@ -101,6 +101,39 @@ def test_a_saved_state_goes_on_to_the_bit(scene):
             np.testing.assert_array_equal(one.velocities(body), two.velocities(body))
 
 
+@pytest.mark.parametrize("integrator", ["linear_euler", "bdf2"])
+@pytest.mark.parametrize("dimension", [3, 4])
+def test_a_state_goes_on_with_another_stiffness_but_no_other_time_step(
+    cube, tesseract, dimension, integrator
+):
+    mesh = cube if dimension == 3 else tesseract
+    falling = [0.0, -9.0, *[0.0] * (dimension - 2)]
+
+    def thrown(steps: int, young: float) -> pentimento.Simulation:
+        scene = pentimento.SceneBuilder(dimension=dimension, gravity=falling, steps_per_frame=steps)
+        scene.body("a", mesh, material={"young": young}).solver(integrator=integrator)
+        return scene.build().simulate(threads=1)
+
+    with thrown(2, 1e4) as one, thrown(2, 3e5) as two, thrown(5, 1e4) as other:
+        one.step(4)
+        two.restore(one.save())
+        assert two.time == one.time
+        np.testing.assert_array_equal(two.positions(), one.positions())
+        np.testing.assert_array_equal(two.velocities(), one.velocities())
+        # The clock of the third would leap, and BDF2 would take a past of longer steps for its own.
+        with pytest.raises(Error, match="of 0.016667 s; this one has steps of 0.006667 s"):
+            other.restore(one.save())
+        assert other.time == 0 and (other.velocities() == 0).all()
+        other.set_state(0, one.positions(), one.velocities())
+        for going, before in ((two, 0.0), (other, one.time)):
+            for _ in range(5):  # the center falls by either rule, whatever the step and stiffness
+                going.step()
+                center = going.masses() @ going.velocities() / going.masses().sum()
+                fallen = (before + going.time) * np.array(falling)
+                # To what the linear solver leaves over, in single precision.
+                np.testing.assert_allclose(center, fallen, atol=1e-5)
+
+
 def test_a_state_is_of_its_process_and_its_copies_are_the_same(simulation):
     # As a number it would be another state in another process.
     simulation.step(3)

@@ -127,6 +127,14 @@ def test_time_and_frames_are_those_of_the_run(data):
     assert [view.frame_at(number) for number in (-5, 0, 2.9, 3, 99)] == [0, 0, 2, 3, 8]
 
 
+def test_it_says_what_it_looks_at(data, tmp_path, tesseract):
+    path = data / "run"
+    assert repr(View(path)) == f"<pentimento.View: {path}, 4D, high, low, 9 frames>"
+    mesh = tmp_path / "a.pent"
+    tesseract.write(mesh)
+    assert repr(View(mesh)) == f"<pentimento.View: {mesh}, 4D, a, 1 frame>"
+
+
 def test_frames_that_come_are_seen_after_a_refresh(data, tmp_path):
     shutil.copytree(data / "run", tmp_path / "run")
     late = tmp_path / "run" / "frames" / "high_000004.pent"

@@ -62,11 +62,18 @@ class ProgramDocs(unittest.TestCase):
     @unittest.skipUnless("pent-mesh" in PROGRAMS, "the mesher was not built")
     def test_choices_are_offered(self):
         self.assertEqual(complete("pent-mesh", "--repair", ""), ["auto", "light", "wrap", "none"])
-        self.assertEqual(complete("pent-mesh", "--dim", ""), ["3", "4"])
+        self.assertEqual(complete("pent-mesh", "--dim", ""), ["4", "3"])
 
     def test_files_are_offered_where_one_is_meant(self):
         self.assertEqual(complete("pent-sim", "-o", f"{SOURCE}/READ"), [f"{SOURCE}/README.md"])
         self.assertEqual(complete("pent-sim", f"{SOURCE}/READ"), [f"{SOURCE}/README.md"])
+        self.assertEqual(complete("pent-sim", "--isa", f"{SOURCE}/READ"), [])
+        if "pent-mesh" in PROGRAMS:  # --body names one of a run folder, and is no file itself
+            self.assertEqual(complete("pent-mesh", "--body", f"{SOURCE}/READ"), [])
+        if "pent-study" in PROGRAMS:
+            self.assertEqual(
+                complete("pent-study", "--write-scene", f"{SOURCE}/READ"), [f"{SOURCE}/README.md"]
+            )
 
     def test_every_option_has_its_text_in_the_man_page(self):
         for program in PROGRAMS:
@@ -78,6 +85,15 @@ class ProgramDocs(unittest.TestCase):
                 self.assertLessEqual(options_in(said(program, "--help")), names)
                 self.assertEqual([head for head, about in listed if not about.strip()], [])
                 self.assertIn(said(program, "--version").split()[1], text)
+
+    @unittest.skipUnless("pent-mesh" in PROGRAMS, "the mesher was not built")
+    def test_the_man_page_says_what_goes_with_what_behind_the_text(self):
+        page = man_page("pent-mesh").replace("\\-", "-")
+        heads = re.findall(r"^\.TP\n(.*)$", page, re.M)
+        self.assertEqual([head for head in heads if "Needs:" in head or "Excludes:" in head], [])
+        self.assertIn("Of a run folder with several bodies (needs --space-time)\n", page)
+        self.assertRegex(page, r"NUMBER, default 1\\fR\n.*\(not with input\)\n")
+        self.assertIn("(not with --extrude, --profile)\n", page)
 
     @unittest.skipUnless(shutil.which("groff"), "no groff")
     def test_groff_has_nothing_to_say(self):

@@ -8,6 +8,8 @@
 
 #include <array>
 #include <cmath>
+#include <cstdint>
+#include <cstring>
 #include <fstream>
 #include <map>
 #include <nlohmann/json.hpp>
@@ -253,6 +255,78 @@ TEST_F(WholeWay, OpenSurfaceIsRefusedOrMendedButNeverMeshedAsIs) {
     expect_one_error_line(outcome, "pent-mesh");
     expect_contains(outcome.err, {"open.obj", "border"});
     EXPECT_FALSE(std::filesystem::exists(folder_ / "open.pent"));
+}
+
+// The numbers of an array of a file of VTK that pent-slice has written.
+std::vector<double> array_of(const std::string& vtu, const std::string& name) {
+    const std::size_t at = vtu.find("Name=\"" + name + "\"");
+    const std::size_t offset = vtu.find("offset=\"", at) + 8;
+    const char* const block =
+        vtu.data() + vtu.find("encoding=\"raw\">\n_") + 17 + std::stoul(vtu.substr(offset, 12));
+    std::uint64_t bytes = 0;
+    std::memcpy(&bytes, block, sizeof bytes);
+    std::vector<double> values(bytes / sizeof(double));
+    std::memcpy(values.data(), block + sizeof bytes, bytes);
+    return values;
+}
+
+// Of two tetrahedra of Gmsh, with a quantity of the nodes that is linear in space.
+TEST(Quantities, OfGmshGoThroughTheMeshIntoFilesOfVtk) {
+    const test::TempFolder folder;
+    std::ofstream(folder / "a.msh") << R"msh($MeshFormat
+2.2 0 8
+$EndMeshFormat
+$Nodes
+5
+10 0 0 0
+20 1 0 0
+30 0 1 0
+40 0 0 1
+50 -1 0 0
+$EndNodes
+$Elements
+2
+7 4 2 5 1 10 20 30 40
+3 4 2 6 1 10 50 30 40
+$EndElements
+$NodeData
+1
+"warmth (K)"
+1
+0
+3
+0
+1
+5
+50 1
+40 3.5
+30 2
+20 5
+10 3
+$EndNodeData
+)msh";
+    const auto warmth = [](double x, double y, double z) { return 3 + 2 * x - y + 0.5 * z; };
+    const Outcome made = run_program("pent-mesh " + (folder / "a.msh").string() + " -o "
+                                     + (folder / "a.pent").string() + " --layers 2");
+    ASSERT_EQ(made.exit_code, 0) << made.err;
+    expect_contains(made.out, {"carried    warmth__K_\n"});
+    const auto body = read_mesh<4>(folder / "a.pent");
+    ASSERT_EQ(body.extras.vertex_fields.size(), 1U);
+    for (Eigen::Index v = 0; v < body.mesh.vertex_count(); ++v) {
+        const auto x = body.mesh.positions.col(v);
+        EXPECT_EQ(body.extras.vertex_fields[0].values(0, v), warmth(x[0], x[1], x[2]));
+    }
+    const Outcome sliced = run_program("pent-slice " + (folder / "a.pent").string() + " -o "
+                                       + (folder / "out").string() + " --boundary");
+    ASSERT_EQ(sliced.exit_code, 0) << sliced.err;
+    const std::string vtu = text_of(folder / "out" / "a.boundary_000000.vtu");
+    const std::vector<double> points = array_of(vtu, "points");
+    const std::vector<double> values = array_of(vtu, "warmth__K_");
+    ASSERT_EQ(values.size(), 15U);
+    ASSERT_EQ(points.size(), 45U);
+    for (std::size_t v = 0; v < values.size(); ++v) {
+        EXPECT_EQ(values[v], warmth(points[3 * v], points[3 * v + 1], points[3 * v + 2]));
+    }
 }
 
 }  // namespace

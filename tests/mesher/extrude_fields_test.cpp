@@ -1,4 +1,4 @@
-#include "moving_shapes.h"
+#include "fields_of_base.h"
 #include "support/messages.h"
 #include "support/temp_folder.h"
 
@@ -18,43 +18,9 @@
 namespace pent::mesher {
 namespace {
 
-SimplexMesh<3> base_box() {
-    return test::kuhn_box<3>({2, 1, 1}, {2, 1, 1.5});
-}
-
-double warmth(const Eigen::Vector3d& x) {
-    return 3 + 2 * x[0] - x[1] + 0.5 * x[2];
-}
-
-Eigen::Vector3d first_edge(const SimplexMesh<3>& mesh, Eigen::Index cell) {
-    return mesh.positions.col(mesh.cells(1, cell)) - mesh.positions.col(mesh.cells(0, cell));
-}
-
-// A number and a vector of the points, which are linear in space, and of the cells their numbers
-// and first edges.
-std::string file_with_fields(const SimplexMesh<3>& mesh) {
-    std::string text = test::to_legacy_vtk(test::parts_of(mesh));
-    text += formatted("POINT_DATA %d\nSCALARS warmth double\nLOOKUP_TABLE default\n",
-                      static_cast<int>(mesh.vertex_count()));
-    for (const auto& x : mesh.positions.colwise()) {
-        text += formatted("%.17g\n", warmth(x));
-    }
-    text += "VECTORS place double\n";
-    for (const auto& x : mesh.positions.colwise()) {
-        text += formatted("%.17g %.17g %.17g\n", x[0], x[1], x[2]);
-    }
-    text += formatted("CELL_DATA %d\nSCALARS number int\nLOOKUP_TABLE default\n",
-                      static_cast<int>(mesh.cell_count()));
-    for (Eigen::Index cell = 0; cell < mesh.cell_count(); ++cell) {
-        text += formatted("%d\n", static_cast<int>(cell));
-    }
-    text += "VECTORS fiber double\n";
-    for (Eigen::Index cell = 0; cell < mesh.cell_count(); ++cell) {
-        const Eigen::Vector3d edge = first_edge(mesh, cell);
-        text += formatted("%.17g %.17g %.17g\n", edge[0], edge[1], edge[2]);
-    }
-    return text;
-}
+using test::base_box;
+using test::first_edge;
+using test::warmth;
 
 template <int Dim>
 const Eigen::MatrixXd& field(const Body<Dim>& body, const std::string& name) {
@@ -77,7 +43,7 @@ struct Case {
 class ExtrudedFields : public testing::Test {
 protected:
     Body<4> body(const std::function<void(BodyRequest&)>& change) {
-        test::write_file(folder_ / "a.vtk", file_with_fields(base_));
+        test::write_file(folder_ / "a.vtk", test::vtk_with_fields(base_));
         test::write_file(folder_ / "turning.txt",
                          "-1 1\n0 0.7  0.1 0 0.3  20 0 10 0 0 0\n1 0.5  0.4 0 0  0 15 -8 0 5 0\n");
         BodyRequest request;
@@ -233,7 +199,7 @@ TEST_F(ExtrudedFields, TurnFibersWithTheEdgesThatTheyAre) {
 }
 
 TEST_F(ExtrudedFields, AreThoseOfTheFileInThreeDimensions) {
-    test::write_file(folder_ / "a.vtk", file_with_fields(base_));
+    test::write_file(folder_ / "a.vtk", test::vtk_with_fields(base_));
     for (const bool is_quadratic : {false, true}) {
         BodyRequest request;
         request.input = folder_ / "a.vtk";
@@ -267,8 +233,8 @@ TEST(ReadTetrahedra, SaysWhichArraysAreNoQuantitiesOfABody) {
                            "age 1 6 int\n1 2 3 4 5 6\n");
     const TetrahedraFile file = read_tetrahedra(folder / "a.vtk");
     EXPECT_EQ(file.left_out,
-              "array pair of 2 components, array age, a second one, array hole, which is not finite"
-              " everywhere");
+              "array pair of 2 components, array age, a second one, array hole, which some cells do"
+              " not have in finite numbers");
     ASSERT_EQ(file.extras.cell_fields.size(), 1U);
     EXPECT_EQ(file.extras.cell_fields[0].name, "age");
 }

@@ -107,7 +107,7 @@ TEST(PentCheck, NamesCellsThatDoNotFitAndPartsThatTouch) {
     write_mesh(out, mesh);
     const Outcome touching = run_program("pent-check " + out);
     EXPECT_EQ(touching.exit_code, 1);
-    test::expect_contains(touching.err, {"not a manifold at 1 vertices (first: 0)"});
+    test::expect_contains(touching.err, {"not a manifold at 1 vertex (first: 0)"});
     mesh.cells.col(1) = mesh.cells.col(0);
     write_mesh(out, mesh);
     const Outcome doubled = run_program("pent-check " + out);

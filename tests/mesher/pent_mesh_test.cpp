@@ -137,7 +137,7 @@ TEST(PentMesh, MakesBodiesOfThreeDimensions) {
                      "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n4\n1 0 0 0\n2 1 0 0\n3 0 1 0\n"
                      "4 0 0 1\n$EndNodes\n$Elements\n1\n1 4 0 1 2 3 4\n$EndElements\n");
     const std::vector<std::pair<std::string, std::string>> wanted = {
-        {(folder / "corner.msh").string(), "1 tetrahedra, 0.1666666667 m^3"},
+        {(folder / "corner.msh").string(), "1 tetrahedron, 0.1666666667 m^3"},
         {kModels + "/dirty/d_cube.off", "6 tetrahedra, 1 m^3"},
         {"--ball 3", "180 tetrahedra"},
         {"--box 2,2,2 --size 1", "48 tetrahedra, 1 m^3"}};
@@ -279,11 +279,16 @@ TEST(PentMesh, SaysWhatAValueShouldHaveBeen) {
         return outcome.err;
     };
     test::expect_contains(message("--thickness abc"),
-                          {R"(--thickness: found "abc", expected a number)"});
+                          {R"(--thickness: found "abc"; expected a number)"});
     test::expect_contains(message("--scale twice"), {"--scale", "twice"});
     test::expect_contains(message("--layers many"), {"--layers", "many", "1 to 1000000"});
     test::expect_contains(message("--memory-limit 1e14"), {"--memory-limit", "1000000000"});
     test::expect_contains(message("--cut corners"), {"--cut requires --box"});
+    test::expect_contains(message("--repair some"),
+                          {R"(--repair: found "some"; expected auto, light, wrap or none)"});
+    test::expect_contains(message("--dim 5"), {R"(--dim: found "5"; expected 4 or 3)"});
+    test::expect_contains(message("--time-limit nan"),
+                          {R"(found "nan"; expected a number above 0)"});
     const Outcome file =
         run_program("pent-mesh " + kModels + "/octopus_5246f.obj -o a.pent --size 2");
     EXPECT_EQ(file.exit_code, 2);
@@ -291,6 +296,13 @@ TEST(PentMesh, SaysWhatAValueShouldHaveBeen) {
     const Outcome radii = run_program("pent-mesh --ball 1 -o a.pent --size 1,2");
     EXPECT_EQ(radii.exit_code, 1);
     test::expect_contains(radii.err, {"--size: found 2 numbers; expected one, the radius"});
+    for (const char* sizes : {"--box 2,2,2 --dim 3 --size 1,1", "--box 2,2,2,2 --size 1,1",
+                              "--box 2,2,2,2 --size 1,1,1", "--box 2,2,2 --dim 3 --size 1,1,1,1"}) {
+        const Outcome sides = run_program(std::string("pent-mesh -o a.pent ") + sizes);
+        EXPECT_EQ(sides.exit_code, 1) << sizes;
+        test::expect_contains(sides.err,
+                              {"--size: found ", "expected one, or one for each of the "});
+    }
 }
 
 TEST(PentMesh, SaysWhatToTryWhereLightMendingIsNotEnough) {
@@ -382,7 +394,7 @@ TEST(PentMesh, SaysWhatItMended) {
     test::expect_contains(run_program("pent-mesh " + kModels + "/dirty/d_open.off" + out).out,
                           {"found      ", "3 border edges", "mended     lightly"});
     test::expect_contains(run_program("pent-mesh " + kModels + "/dirty/d_flipped.off" + out).out,
-                          {"corrected  ", "1 triangles turned over"});
+                          {"corrected  ", "1 triangle turned over"});
 }
 
 TEST(PentMesh, TakesShapesDirectionsAndLimits) {

@@ -52,7 +52,7 @@ TEST(ReadProfile, NamesTheLineOfWhatIsWrong) {
         return test::error_of([&] { static_cast<void>(read_text(text)); });
     };
     test::expect_contains(message(""), {"profile.txt", "0 layers"});
-    test::expect_contains(message("0 1\n"), {"1 layers"});
+    test::expect_contains(message("0 1\n"), {"1 layer;"});
     test::expect_contains(message("0 1\n1\n"), {"line 2", "1 numbers"});
     test::expect_contains(message("0 1\n1 1 2\n"), {"3 numbers"});
     test::expect_contains(message("0 1\n1 -1\n"), {"scale -1"});

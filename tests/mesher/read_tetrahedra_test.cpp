@@ -223,7 +223,7 @@ TEST(ReadTetrahedra, RefusesDamageWithFileAndLine) {
     test::expect_contains(message_for("a.vtk",
                                       "# vtk DataFile Version 3.0\nt\nASCII\nCELLS 1 5\n4 0 1 2 3\n"
                                       "CELL_TYPES 2\n10\n10\n"),
-                          {"line 6", "2 types of 1 cells"});
+                          {"line 6", "2 types of 1 cell"});
     test::expect_contains(
         message_for("a.vtk",
                     "# vtk DataFile Version 3.0\nt\nASCII\nPOINTS 1 float\n0 0 0\n"
@@ -238,6 +238,80 @@ TEST(ReadTetrahedra, RefusesDamageWithFileAndLine) {
                                       "$EndNodes\n$Elements\n1\n1 4 2 1 1 1 1 1 7\n$EndElements\n"),
                           {"a.msh: line 10", "node 7", "not in the file"});
     test::expect_contains(message_for("a.xyz", ""), {".tobj"});
+}
+
+// A tetrahedron of VTK with something else in its file.
+std::string vtk_of(const std::string& cells, const std::string& types, const std::string& behind) {
+    return "# vtk DataFile Version 3.0\nt\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS 5 double\n"
+           "0 0 0 1 0 0 0 1 0 0 0 1 -1 0 0\nCELLS "
+           + cells + "\nCELL_TYPES " + types + "\n" + behind;
+}
+
+// Empty cells, of type 0, count among those that arrays have values of.
+TEST(ReadTetrahedra, PassesOverEmptyCellsOfVtk) {
+    const TetrahedraFile file =
+        read_text("a.vtk", vtk_of("3 11\n4 0 1 2 3\n0\n4 0 4 2 3", "3\n10\n0\n10",
+                                  "CELL_DATA 3\nSCALARS age int\nLOOKUP_TABLE default\n1 2 3\n"));
+    EXPECT_EQ(file.left_out, "");
+    ASSERT_EQ(file.extras.cell_fields.size(), 1U);
+    EXPECT_EQ(file.extras.cell_fields[0].values, Eigen::RowVector2d(1, 3));
+}
+
+// Case and separators do not count; labels are from 0 to 65535, in one number a cell.
+TEST(ReadTetrahedra, FindsLabelsOfVtkByNameAndRange) {
+    const auto read = [](const std::string& type, const std::string& values,
+                         const std::string& asked) {
+        const test::TempFolder folder;
+        write_file(folder / "a.vtk", vtk_of("2 10\n4 0 1 2 3\n4 0 4 2 3", "2\n10\n10",
+                                            "CELL_DATA 2\n" + type + "\n" + values + "\n"));
+        return read_tetrahedra(folder / "a.vtk", "", asked);
+    };
+    for (const char* const name : {"region_id", "Region-ID", "REGION%20ID", "regionid"}) {
+        const std::string type = std::string("SCALARS ") + name + " int\nLOOKUP_TABLE default";
+        EXPECT_EQ(read(type, "0 65535", "").mesh.regions, (std::vector<std::uint16_t>{0, 65535}));
+        EXPECT_TRUE(read(type, "1 65536", "").mesh.regions.empty());
+        EXPECT_TRUE(read(type, "-1 1", "").mesh.regions.empty());
+    }
+    test::expect_contains(
+        test::error_of([&] { static_cast<void>(read("VECTORS v int", "1 1 1 2 2 2", "v")); }),
+        {"no array \"v\" of one number a cell; its cells have \"v\""});
+}
+
+TEST(ReadTetrahedra, RefusesDamagedFilesOfVtkWithTheirLine) {
+    const std::string types = "1\n10";
+    for (const std::string corner : {"5", "-1"}) {
+        test::expect_contains(message_for("a.vtk", vtk_of("1 5\n4 0 1 2 " + corner, types, "")),
+                              {"a.vtk: line ", "index " + corner + " of 5"});
+    }
+    test::expect_contains(message_for("a.vtk", "vtk DataFile Version 3.0\n"),
+                          {"a.vtk: line 1", "no \"# vtk DataFile\" at the start"});
+    test::expect_contains(message_for("a.vtk", ""), {"no \"# vtk DataFile\" at the start"});
+    test::expect_contains(message_for("a.vtk", "# vtk DataFile Version 3.0\nt\n"),
+                          {"the file ends here; expected ASCII or BINARY"});
+    test::expect_contains(
+        message_for("a.vtk",
+                    "# vtk DataFile Version 3.0\nt\nBINARY\nDATASET UNSTRUCTURED_GRID\n"
+                    "POINTS 5 int\n"),
+        {"points of type \"int\"; expected float or double"});
+    test::expect_contains(message_for("a.vtk",
+                                      "# vtk DataFile Version 5.1\nt\nASCII\nCELLS 3 8\n"
+                                      "OFFSETS vtktypeint64\n0 4 3\n"),
+                          {"a.vtk: line 6", "offset 3 of 8"});
+    const std::string cell = "1 5\n4 0 1 2 3";
+    test::expect_contains(message_for("a.vtk", vtk_of(cell, types, "POINT_DATA 4\n")),
+                          {"data of 4 points, of 5"});
+    test::expect_contains(message_for("a.vtk", vtk_of(cell, types, "POINT_DATA 5\nCELL_DATA 2\n")),
+                          {"data of 2 cells, of 1"});
+}
+
+// A line too long would shift all that follows.
+TEST(ReadTetrahedra, RefusesElementsOfGmshWithMoreWordsThanTheirTypeHas) {
+    for (const auto& [whole, line] :
+         {std::pair<std::string, std::string>(kGmsh2, "2 4 2 5 1 10 20"), {kGmsh4, "2 10 20"}}) {
+        std::string text = whole;
+        text.insert(text.find(line + " 30 40") + line.size() + 6, " 50");
+        test::expect_contains(message_for("a.msh", text), {"a.msh: line ", "more words or fewer"});
+    }
 }
 
 TEST(ReadTetrahedra, RefusesAFileCutOffAnywhere) {

@@ -173,7 +173,7 @@ TEST(ReadStl, TakesKeywordsInAnyLettersBehindBlankLines) {
         EXPECT_DOUBLE_EQ(area(file.surface), 0.5);
     }
     test::expect_contains(message_for("a.stl", "SOLID a\nOUTER LOOP\nVERTEX 0 0 0\nENDLOOP\n"),
-                          {"a.stl: line 4: a loop of 1 vertices"});
+                          {"a.stl: line 4: a loop of 1 vertex;"});
 }
 
 TEST(ReadStl, NamesLoopsThatAreNoTriangles) {
@@ -211,6 +211,10 @@ TEST(ReadObj, RefusesFreeFormSurfaces) {
     test::expect_contains(
         message_for("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\nsurf 0 1 0 1 1 2\n"),
         {"a.obj: line 5", "a free-form surface (surf)", "expected polygons"});
+    for (const std::string keyword : {"surf", "bsp", "bzp", "cdp", "con"}) {
+        test::expect_contains(message_for("a.obj", "v 0 0 0\n" + keyword + " 0 1\n"),
+                              {"a.obj: line 2", "a free-form surface (" + keyword + ")"});
+    }
 }
 
 TEST(ReadOff, RefusesPointsThatAreNotInSpace) {

@@ -10,6 +10,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <csignal>
 #include <cstdlib>
 #include <fstream>
@@ -51,6 +52,36 @@ TEST(Tetrahedralize, LeavesCavitiesEmptyAndFillsEveryComponent) {
     const Surface apart = test::join(test::box_surface({0, 0, 0}, {1, 1, 1}),
                                      test::box_surface({3, 0, 0}, {3.05, 0.05, 0.05}));
     EXPECT_NEAR(total_volume(tetrahedralize(apart, options()).mesh), 1.000125, 1e-12);
+}
+
+// Bodies in cavities of bodies, of which some have no side outside; with the surface's triangles as
+// they are, and cut.
+TEST(Tetrahedralize, FillsBodiesWithinCavitiesAndNothingElse) {
+    Surface nested = test::box_surface({0, 0, 0}, {20, 10, 10});
+    double volume = 2000;
+    for (const double x : {0.0, 10.0}) {
+        for (int depth = 1; depth <= 4; ++depth) {
+            const Eigen::Vector3d low(x + depth, depth, depth);
+            const double size = 10.0 - 2 * depth;
+            nested = test::join(nested, test::box_surface(low, low.array() + size));
+            volume += (depth % 2 == 1 ? -1 : 1) * size * size * size;
+        }
+    }
+    for (const bool keep_surface : {true, false}) {
+        TetrahedraOptions wanted = options();
+        wanted.keep_surface = keep_surface;
+        const SimplexMesh<3> mesh = tetrahedralize(orient(nested).surface, wanted).mesh;
+        EXPECT_NEAR(total_volume(mesh), volume, 1e-9);
+        for (Eigen::Index cell = 0; cell < mesh.cell_count(); ++cell) {
+            Eigen::Vector3d middle = Eigen::Vector3d::Zero();
+            for (const std::uint32_t corner : mesh.cells.col(cell)) {
+                middle += mesh.positions.col(corner) / 4;
+            }
+            middle[0] -= middle[0] > 10 ? 10 : 0;
+            const double depth = std::min(middle.minCoeff(), 10 - middle.maxCoeff());
+            EXPECT_EQ(static_cast<int>(depth) % 2, 0) << depth;
+        }
+    }
 }
 
 TEST(Tetrahedralize, AimsAtTheEdgeLength) {
@@ -160,7 +191,7 @@ TEST(Tetrahedralize, ProvesWhatTheWorkerAnswers) {
                           {"TetGen pq", "is not sound"});
     two.col(1) << 0, 4, 5, 6;
     test::expect_contains(message_for(corner, with_answer(folder, halves, two)),
-                          {"TetGen pq", "touches itself at 1 points"});
+                          {"TetGen pq", "touches itself at 1 point"});
 }
 
 TEST(Tetrahedralize, SaysWhenItsFilesCannotBeWrittenOrItsWorkerNotBeWaitedFor) {

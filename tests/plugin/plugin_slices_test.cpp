@@ -5,7 +5,9 @@
 
 #include <algorithm>
 #include <array>
+#include <cstdint>
 #include <pent_plugin_meshes.h>
+#include <utility>
 #include <vector>
 
 // Slices of meshes without a simulation, and what is shown of them.
@@ -44,6 +46,41 @@ TEST(PluginSlices, AreThoseOfBodies) {
     pent_surface skin = {};
     ASSERT_EQ(pent_slice_mesh(stored3, nullptr, nullptr, 0, &skin), 0);
     EXPECT_EQ(skin.triangle_count, 12);
+}
+
+// Removed bodies take their boundaries with them: those behind get their numbers, and others cells.
+template <int Dim>
+void expect_slices_follow_bodies() {
+    std::array<int, Dim> count{};
+    std::array<double, Dim> size{};
+    count.fill(2);
+    size.fill(1);
+    const SimplexMesh<Dim> fine = test::kuhn_box<Dim>(count, size);
+    const std::array<pent_mesh, 2> meshes = {closed_c_mesh(test::box<Dim>()), closed_c_mesh(fine)};
+    const Host host(pent_open_text(Dim == 4 ? test::kScene4 : test::kScene3, meshes.data(), 2, 1));
+    const std::array<double, 4> normal = {0.1, 0.2, 0.3, 1};
+    const auto slice_of = [&](int body) {
+        pent_surface slice = {};
+        EXPECT_EQ(pent_slice(host, body, normal.data(), 0.8, &slice), 0) << pent_last_error();
+        return std::pair(std::vector<double>(slice.positions, slice.positions + 3 * slice.vertices),
+                         std::vector<std::uint32_t>(slice.triangles,
+                                                    slice.triangles + 3 * slice.triangle_count));
+    };
+    const auto low = slice_of(0);
+    const auto high = slice_of(1);
+    ASSERT_GT(high.second.size(), low.second.size());
+    EXPECT_EQ(slice_of(0), low);
+    ASSERT_EQ(pent_remove_body(host, 0), 0) << pent_last_error();
+    EXPECT_EQ(slice_of(0), high);
+    ASSERT_EQ(pent_add_body(host, "[[body]]\nname = \"low\"\nmesh = \"-\"\n", meshes.data()), 0)
+        << pent_last_error();
+    EXPECT_EQ(slice_of(0), high);
+    EXPECT_EQ(slice_of(1), low);
+}
+
+TEST(PluginSlices, FollowBodiesThatComeAndGo) {
+    expect_slices_follow_bodies<3>();
+    expect_slices_follow_bodies<4>();
 }
 
 // Without turns the slice by a normal along w, to the bit; a quarter turn takes x to w.

@@ -11,6 +11,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <map>
 #include <pent_plugin_meshes.h>
 #include <string>
@@ -180,6 +181,25 @@ TEST(Plugin, GoesOnToTheBitFromASavedState) {
     EXPECT_EQ(pent_free_state(state), 0);
     EXPECT_EQ(pent_restore(two, state), -1);
     expect_error("there is no such state");
+}
+
+// Time is counted in steps, and BDF2 looks back one.
+TEST(Plugin, RefusesAStateOfAnotherTimeStep) {
+    const Host one = test::open4();
+    const std::array<pent_mesh, 2> meshes = {test::closed_c_mesh(test::box<4>()),
+                                             test::closed_c_mesh(test::box<4>())};
+    std::string scene = test::kScene4;
+    scene.insert(scene.find("[[body]]"), "steps_per_frame = 7\n");
+    const Host other(pent_open_text(scene.c_str(), meshes.data(), 2, 1));
+    ASSERT_EQ(pent_step(one, nullptr), 0);
+    pent_state* state = pent_save(one);
+    const double before = *pent_positions(other, 1);
+    EXPECT_EQ(pent_restore(other, state), -1);
+    expect_error("this one has steps of 0.00");
+    EXPECT_EQ(pent_time(other), 0);
+    EXPECT_EQ(*pent_positions(other, 1), before);
+    EXPECT_EQ(pent_restore(one, state), 0);
+    EXPECT_EQ(pent_free_state(state), 0);
 }
 
 // A box that lies on the ground, in three dimensions, and one that falls.

@@ -326,10 +326,10 @@ TEST(Explain, KeepsWhatFrictionOfBodiesAndLaterLoadsNeed) {
     scene.obstacles = {{.shape = floor}};
     scene.contact = ContactSettings{};
     scene.bodies[0].friction = 0.5;
-    expect_contains(term(explain(scene, 1), "friction").why, {"1 bodies or obstacles"});
+    expect_contains(term(explain(scene, 1), "friction").why, {"1 body or obstacle has its own"});
     EXPECT_EQ(advice(explain(scene, 1)).find("nothing to do"), std::string::npos);
     scene.contact.reset();
-    expect_contains(term(explain(scene, 1), "friction").why, {"1 bodies or obstacles"});
+    expect_contains(term(explain(scene, 1), "friction").why, {"1 body or obstacle has its own"});
     EXPECT_NE(advice(explain(scene, 1)).find("[[obstacle]] could go"), std::string::npos);
     scene.loads = {{.body = scene.bodies[0].name,
                     .select = {EverythingSelection{}},

@@ -281,6 +281,18 @@ TEST_F(ViewerPrograms, RefuseUnknownFormatsAsWrongUsage) {
     EXPECT_EQ(run_program("pent-slice " + at("run")).exit_code, 2);
 }
 
+TEST_F(ViewerPrograms, TakeWordsInAnyLetters) {
+    const auto written = [&](const std::string& out, const std::string& words) {
+        const Outcome outcome =
+            run_program("pent-slice " + at("run") + " --frames 2 -o " + at(out) + words);
+        EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+        return pent::test::text_of(folder_ / out / "a_000002.obj")
+               + pent::test::text_of(folder_ / out / "a.outline_000002.obj");
+    };
+    EXPECT_EQ(written("large", " --format OBJ --project Perspective --eye 3"),
+              written("small", " --format obj --project perspective --eye 3"));
+}
+
 // Only what is looked at tells which quantities there are.
 TEST_F(ViewerPrograms, RefuseColorsOfNothingWithWhatThereIs) {
     for (const char* program : {"pent-slice", "pent-render"}) {

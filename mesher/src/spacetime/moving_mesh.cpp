@@ -24,7 +24,7 @@ namespace {
 namespace fs = std::filesystem;
 using Triangle = std::array<std::uint32_t, 3>;
 
-VtkGrid read_frame_grid(const fs::path& path) {
+FileGrid read_frame_grid(const fs::path& path) {
     require_file(path);
     const std::string ending = format_of(path, "");
     if (ending != ".vtu" && ending != ".vtk") {
@@ -43,8 +43,8 @@ std::string corners_text(const CellSoup& soup, std::size_t first, std::size_t co
 }
 
 // Throws unless both grids have the same cells.
-void require_same_cells(const VtkGrid& first,
-                        const VtkGrid& grid,
+void require_same_cells(const FileGrid& first,
+                        const FileGrid& grid,
                         const fs::path& first_path,
                         const fs::path& path) {
     const std::string remedy =
@@ -84,9 +84,9 @@ class Collector {
 public:
     Collector(MovingMesh& mesh, const SeriesOptions& options) : mesh_(mesh), options_(options) {}
 
-    void add_first(VtkGrid grid, const fs::path& path) {
+    void add_first(FileGrid grid, const fs::path& path) {
         first_path_ = path;
-        const VtkArray* regions = region_array(grid, options_.region_array, path);
+        const FileArray* regions = region_array(grid, options_.region_array, path);
         if (regions != nullptr) {
             region_name_ = regions->name;
             label_cells(grid, *regions);
@@ -117,7 +117,7 @@ public:
         add_frame(first_, path);
     }
 
-    void add(const VtkGrid& grid, const fs::path& path) {
+    void add(const FileGrid& grid, const fs::path& path) {
         require_same_cells(first_, grid, first_path_, path);
         if (!region_name_.empty()) {
             require_same_regions(grid, path);
@@ -156,7 +156,7 @@ private:
         return triangles;
     }
 
-    void add_triangles(const VtkGrid& grid, const VtkArray& regions) {
+    void add_triangles(const FileGrid& grid, const FileArray& regions) {
         std::vector<std::int64_t> vertex_of(grid.soup.points.size(), -1);
         for (std::size_t vertex = 0; vertex < points_.size(); ++vertex) {
             vertex_of[static_cast<std::size_t>(points_[vertex])] =
@@ -206,11 +206,11 @@ private:
     }
 
     // Arrays that the first frame lacks become fields without its values, which finish() tells of.
-    static void note_late(const std::vector<VtkArray>& arrays,
-                          const std::vector<VtkArray>& first,
+    static void note_late(const std::vector<FileArray>& arrays,
+                          const std::vector<FileArray>& first,
                           std::vector<std::string>& names,
                           std::vector<MovingField>& fields) {
-        for (const VtkArray& array : arrays) {
+        for (const FileArray& array : arrays) {
             if (find_array(first, array.name) == nullptr
                 && std::find(names.begin(), names.end(), array.name) == names.end()) {
                 names.push_back(array.name);
@@ -219,7 +219,7 @@ private:
         }
     }
 
-    void add_frame(const VtkGrid& grid, const fs::path& path) {
+    void add_frame(const FileGrid& grid, const fs::path& path) {
         Positions<3> positions(3, static_cast<Eigen::Index>(points_.size()));
         for (std::size_t vertex = 0; vertex < points_.size(); ++vertex) {
             positions.col(static_cast<Eigen::Index>(vertex)) =
@@ -231,12 +231,12 @@ private:
         add_fields(grid.cell_arrays, cells_, cell_arrays_, mesh_.cell_fields);
     }
 
-    static void add_fields(const std::vector<VtkArray>& arrays,
+    static void add_fields(const std::vector<FileArray>& arrays,
                            const std::vector<std::int64_t>& tuples,
                            const std::vector<std::string>& names,
                            std::vector<MovingField>& fields) {
         for (std::size_t i = 0; i < names.size(); ++i) {
-            const VtkArray* found = find_array(arrays, names[i]);
+            const FileArray* found = find_array(arrays, names[i]);
             if (found == nullptr) {
                 continue;
             }
@@ -247,9 +247,9 @@ private:
         }
     }
 
-    void require_same_regions(const VtkGrid& grid, const fs::path& path) const {
-        const VtkArray& first = *find_array(first_.cell_arrays, region_name_);
-        const VtkArray* now = find_array(grid.cell_arrays, region_name_);
+    void require_same_regions(const FileGrid& grid, const fs::path& path) const {
+        const FileArray& first = *find_array(first_.cell_arrays, region_name_);
+        const FileArray* now = find_array(grid.cell_arrays, region_name_);
         for (const std::int64_t cell : cells_) {
             if (now == nullptr || now->components != 1
                 || now->values[static_cast<std::size_t>(cell)]
@@ -267,7 +267,7 @@ private:
 
     MovingMesh& mesh_;
     const SeriesOptions& options_;
-    VtkGrid first_;
+    FileGrid first_;
     fs::path first_path_;
     std::string region_name_;
     std::vector<std::int64_t> points_;  // of the files, for each vertex

@@ -1,5 +1,6 @@
 #include "explain/advice.h"
 
+#include <pent/counted.h>
 #include <pent/formatted.h>
 #include <pent/runs/explain.h>
 #include <pent/simulator/words.h>
@@ -80,13 +81,15 @@ Terms elasticity(const Trial& trial) {
         terms.push_back(
             {.name = name,
              .is_on = true,
-             .why = word(body.material.model)
-                    + formatted(", young %.4g Pa, poisson %.3g, ", young.young, young.poisson)
-                    + std::to_string(tried.cells) + " cells, "
-                    + (body.regions.empty()
-                           ? ""
-                           : std::to_string(body.regions.size()) + " regions of their own, ")
-                    + word(scene.solver.elements) + ", filter " + word(scene.solver.filter),
+             .why =
+                 word(body.material.model)
+                 + formatted(", young %.4g Pa, poisson %.3g, ", young.young, young.poisson)
+                 + counted(tried.cells, "cell", "cells") + ", "
+                 + (body.regions.empty() ? ""
+                                         : counted(static_cast<std::int64_t>(body.regions.size()),
+                                                   "region of its own", "regions of their own")
+                                               + ", ")
+                 + word(scene.solver.elements) + ", filter " + word(scene.solver.filter),
              .unknowns = scene.dimension * tried.free_vertices,
              .bytes = static_cast<std::int64_t>(bytes),
              .seconds = share * trial.step.assembly_seconds});
@@ -140,7 +143,9 @@ Terms loads(const Trial& trial) {
                    + formatted("pressure %.4g N/m^%d", load.pressure, trial.scene.dimension - 1);
         }
         if (!load.keyframes.empty()) {
-            why += ", with " + std::to_string(load.keyframes.size()) + " keyframes";
+            why += ", with "
+                   + counted(static_cast<std::int64_t>(load.keyframes.size()), "keyframe",
+                             "keyframes");
         }
         terms.push_back(on("load on " + load.body, why));
     }
@@ -168,7 +173,7 @@ Terms attachments(const Trial& trial) {
     for (std::size_t i = 0; i < trial.springs.size(); ++i) {
         const Attachment& one = trial.scene.attachments[i];
         const std::string points = one.motion.empty() ? "points in space" : "points that move";
-        std::string why = std::to_string(trial.springs[i]) + " vertices to "
+        std::string why = counted(trial.springs[i], "vertex", "vertices") + " to "
                           + (one.target.empty() ? points : one.target)
                           + formatted(", %.4g N/m, all together %.4g N/m", one.stiffness,
                                       one.stiffness * static_cast<double>(trial.springs[i]));
@@ -184,7 +189,7 @@ Terms attachments(const Trial& trial) {
 std::string contact_text(const Trial& trial, std::int64_t pairs) {
     const ContactSettings& contact = *trial.scene.contact;
     return word(contact.model) + formatted(" within %.3g m; ", contact.distance)
-           + std::to_string(pairs) + " pairs touch after a step"
+           + counted(pairs, "pair touches", "pairs touch") + " after a step"
            + (contact.model == ContactModel::Barrier
                   ? ", " + time_text(trial.step.contact.ccd_seconds)
                         + " of the time is that nothing crosses"
@@ -237,14 +242,14 @@ Terms obstacles(const Trial& trial) {
     const auto moving = std::count_if(scene.obstacles.begin(), scene.obstacles.end(),
                                       [](const Obstacle& one) { return !one.motion.empty(); });
     const bool has_barrier = scene.contact && scene.contact->model == ContactModel::Barrier;
-    return {contact_term(
-        trial, "obstacles",
-        std::to_string(scene.obstacles.size())
-            + (moving > 0 ? ", of which " + std::to_string(moving) + " move, " : ", ")
-            + (has_barrier ? "barrier" : "penalty") + "; "
-            + std::to_string(trial.step.contact.obstacle) + " vertices touch after a step, of "
-            + std::to_string(trial.size.free_vertices),
-        !scene.contact || (scene.bodies.size() == 1 && !scene.contact->self))};
+    return {
+        contact_term(trial, "obstacles",
+                     std::to_string(scene.obstacles.size())
+                         + (moving > 0 ? ", of which " + std::to_string(moving) + " move, " : ", ")
+                         + (has_barrier ? "barrier" : "penalty") + "; "
+                         + counted(trial.step.contact.obstacle, "vertex touches", "vertices touch")
+                         + " after a step, of " + std::to_string(trial.size.free_vertices),
+                     !scene.contact || (scene.bodies.size() == 1 && !scene.contact->self))};
 }
 
 Terms friction(const Trial& trial) {
@@ -261,11 +266,13 @@ Terms friction(const Trial& trial) {
     if (contact.friction == 0 && own == 0) {
         return {off("friction", "no coefficient of [contact], a body or an obstacle")};
     }
-    return {on(
-        "friction",
-        formatted("coefficient %.3g, sticks below %.3g m/s; its time is that of contact",
-                  contact.friction, contact.slip_speed)
-            + (own > 0 ? "; " + std::to_string(own) + " bodies or obstacles have their own" : ""))};
+    return {on("friction",
+               formatted("coefficient %.3g, sticks below %.3g m/s; its time is that of contact",
+                         contact.friction, contact.slip_speed)
+                   + (own > 0 ? "; "
+                                    + counted(own, "body or obstacle has its own",
+                                              "bodies or obstacles have their own")
+                              : ""))};
 }
 
 Terms sleeping(const Trial& trial) {

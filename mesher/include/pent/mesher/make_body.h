@@ -10,7 +10,7 @@ namespace pent::mesher {
 template <int Dim>
 struct Body {
     SimplexMesh<Dim> mesh;
-    MeshExtras<Dim> extras;  ///< Of tet meshes of VTK: their quantities of vertices and cells.
+    MeshExtras<Dim> extras;  ///< Of tet meshes: their quantities of vertices and cells.
     BodyReport report;
     std::optional<Extrusion<Dim>> extrusion;  ///< What it was extruded from, if that was asked for.
 };

@@ -21,9 +21,4 @@ struct Oriented {
 /// Throws an Error for a component that has one side only, or that encloses no volume.
 [[nodiscard]] Oriented orient(Surface surface);
 
-/// How often a closed surface winds around a point that is not on it: 1 inside an outward one.
-/// Before rounding to a whole number, so that a caller can see how far from one it is.
-/// Source: solid angle of a triangle, [vanoosterom1983].
-[[nodiscard]] double winding_number(const Surface& surface, const Eigen::Vector3d& point);
-
 }  // namespace pent::mesher

@@ -22,7 +22,8 @@ namespace pent::mesher {
 struct TetrahedraFile {
     SimplexMesh<3> mesh;   ///< Positively oriented; regions where the file has labels, fibers
                            ///< where it has them.
-    MeshExtras<3> extras;  ///< Of VTK: quantities of vertices and cells, of one or three numbers.
+    MeshExtras<3> extras;  ///< Of VTK, Gmsh and TetGen: quantities of vertices and cells, of one
+                           ///< or three numbers.
     std::string region_array;        ///< Of VTK: which array the regions are from; empty: none.
     std::int64_t turned_cells = 0;   ///< Cells that were negative in the file.
     std::int64_t unused_points = 0;  ///< Points without a tetrahedron, left out.
@@ -36,6 +37,8 @@ struct TetrahedraFile {
 /// text, Gmsh .msh 2.0 to 2.2 and 4.1 and legacy VTK .vtk as text or binary.
 ///
 /// All but TetGen's are read from standard input, too, by the path "-".
+/// Quantities of TetGen, which have no names there, are called `attribute1` and so on and
+/// `boundary_marker`, of cells `region_attribute2` and so on, as the first is the region.
 /// Pyramids, prisms and hexahedra are cut into tetrahedra such that neighbors agree; other cells of
 /// three dimensions are refused. Throws an Error that names file and line for what is damaged, and
 /// one for a mesh that does not pass validate(). Allocates no more than the size of the file bears
