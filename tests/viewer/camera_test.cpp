@@ -1,5 +1,7 @@
 #include "pent/viewer/camera.h"
 
+#include "framing.h"
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -90,6 +92,45 @@ TEST(CameraFit, ScalesWithThePoints) {
         CameraFit other(1.5, {});
         other.add(scale * points);
         EXPECT_NEAR((other.camera().position / scale - position).norm(), 0, 1e-12) << scale;
+    }
+}
+
+TEST(Framing, SeesWhatIsRoundWhereItIsNoLargerThanTheBodiesReach) {
+    std::mt19937 engine(3);
+    std::uniform_real_distribution<double> number(-1, 1);
+    const auto points = [&](int count) {
+        return Positions<3>(Positions<3>::NullaryExpr(3, count, [&] { return number(engine); }));
+    };
+    const CameraFit tile(1.5, {});
+    const CameraFit sheet(1, {.azimuth = -50});
+    for (int repeat = 0; repeat < 50; ++repeat) {
+        Framing framing(tile, sheet);
+        CameraFit expected_tile = tile;
+        CameraFit expected_sheet = sheet;
+        const Positions<3> body = points(20);
+        framing.add(body);
+        expected_tile.add(body);
+        expected_sheet.add(body);
+        Eigen::AlignedBox3d box(body.rowwise().minCoeff(), body.rowwise().maxCoeff());
+        const double reach = box.diagonal().norm();
+        for (int round = 0; round < 30; ++round) {
+            // Some of one radius, and some at the very limit.
+            const double radius = round % 5 == 0 ? reach : round % 3 == 0 ? 1 : 9 * number(engine);
+            const Positions<3> around = 5 * points(7);
+            framing.add_round(around, radius);
+            if (radius <= reach) {
+                expected_tile.add(around);
+                expected_sheet.add(around);
+                box.extend(around.rowwise().minCoeff()).extend(around.rowwise().maxCoeff());
+            }
+        }
+        framing.settle();
+        EXPECT_EQ(framing.reach(), reach);
+        EXPECT_TRUE(framing.box().isApprox(box, 0));
+        EXPECT_EQ(framing.tile_camera().position, expected_tile.camera().position);
+        EXPECT_EQ(framing.tile_camera().target, expected_tile.camera().target);
+        EXPECT_EQ(framing.sheet_camera().position, expected_sheet.camera().position);
+        EXPECT_EQ(framing.sheet_camera().target, expected_sheet.camera().target);
     }
 }
 

@@ -1,4 +1,5 @@
 #include "ground.h"
+#include "obstacle_view.h"
 #include "surfaces.h"
 
 #include <pent/contact/obstacles.h>
@@ -316,6 +317,77 @@ double entry_by_steps(const ObstacleSlice& slice,
         was_solid = now_solid;
     }
     return -1;
+}
+
+// Where a point is in a picture of a camera, pixels from its middle.
+Eigen::Vector2d seen_at(const Eigen::Vector3d& point, const Camera& camera, int height) {
+    const Eigen::Vector3d p = camera_frame(camera).transpose() * (point - camera.position);
+    return p.head<2>() / -p.z() * (height / (2 * std::tan(camera.field_of_view / 2)));
+}
+
+// The farthest that the middles of chords are from those of their arcs on the nearest circle of a
+// ball that is seen from the front.
+double dent(const Sphere& ball, int corners, const Camera& camera, int height) {
+    const Eigen::Vector3d back = (camera.position - ball.center).normalized();
+    const Eigen::Vector3d across = camera_frame(camera).col(0);
+    const Eigen::Vector3d u = (across - across.dot(back) * back).normalized();
+    const Eigen::Vector3d v = back.cross(u);
+    // The rim as it is seen: where rays from the eye touch the ball.
+    const double share = ball.radius / (camera.position - ball.center).norm();
+    const Eigen::Vector3d middle = ball.center + share * ball.radius * back;
+    const double radius = ball.radius * std::sqrt(1 - share * share);
+    double most = 0;
+    for (int i = 0; i < corners; ++i) {
+        const auto at = [&](double k) {
+            const double angle = 2 * std::numbers::pi * k / corners;
+            return Eigen::Vector3d(middle + radius * (std::cos(angle) * u + std::sin(angle) * v));
+        };
+        const Eigen::Vector3d chord = (at(i) + at(i + 1)) / 2;
+        const Eigen::Vector2d gap =
+            seen_at(chord, camera, height) - seen_at(at(i + 0.5), camera, height);
+        most = std::max(most, gap.norm());
+    }
+    return most;
+}
+
+TEST(RoundCircle, IsRoundToTheEyeAndNoFiner) {
+    Random random;
+    int in_between = 0;
+    for (int repeat = 0; repeat < 300; ++repeat) {
+        const Sphere ball{random.point<3>(), std::exp(random.number(-7, 0))};
+        Camera camera;
+        camera.position = ball.center + random.number(2, 40) * random.point<3>().normalized();
+        camera.target = ball.center;
+        camera.field_of_view = random.number(0.2, 1.5);
+        const int height = repeat % 2 == 0 ? 720 : 200;
+        const int corners = round_circle(ball, camera, height);
+        EXPECT_EQ(corners % 8, 0);
+        EXPECT_GE(corners, 8);
+        EXPECT_LE(corners, kFineCircle);
+        if (corners < kFineCircle) {
+            EXPECT_LT(dent(ball, corners, camera, height), 0.1);
+        }
+        // Where the eye is near, the front is nearer than the rim that is measured here.
+        const double distance = (ball.center - camera.position).norm();
+        if (corners > 8 && distance > 4 * ball.radius) {
+            EXPECT_GT(dent(ball, corners - 8, camera, height), 0.07);
+            in_between += corners < kFineCircle ? 1 : 0;
+        }
+    }
+    EXPECT_GT(in_between, 100);
+    const Camera inside{.position = {0, 0, 0.5}, .target = {0, 0, 0}};
+    EXPECT_EQ(round_circle({Eigen::Vector3d::Zero(), 1}, inside, 720), kFineCircle);
+}
+
+TEST(RoundCircle, GoesForWallsAndOutlinesAlike) {
+    const Ball<4> ball{{1, 0, 0, 0}, 0.5};
+    const FramedHyperplane plane = hyperplane_at(0);
+    const Camera camera{.position = {1, 0, 50}, .target = {1, 0, 0}};
+    const int circle = round_circle({{1, 0, 0}, 0.5}, camera, 720);
+    ASSERT_LT(circle, kFineCircle / 2);
+    const Eigen::Index expected = wall_surface(slice(ball, plane), circle).triangle_count();
+    const RenderObject outline = outline_object(ball, {.film = plane}, 0.5F, camera, 720);
+    EXPECT_EQ(outline.triangles.cols(), expected);
 }
 
 TEST(Ground, IsMetWhereARayGoesFromTheFreeIntoTheSolid) {

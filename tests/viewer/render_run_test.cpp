@@ -13,6 +13,7 @@
 #include <cmath>
 #include <support/messages.h>
 #include <support/temp_folder.h>
+#include <sys/resource.h>
 
 namespace pent::viewer {
 namespace {
@@ -193,6 +194,23 @@ TEST_F(RenderObstacles, HaveGhostsAndOutlinesAsBodiesHave) {
     EXPECT_EQ(picture_of("run", some).rgb, picture_of("bare", some).rgb);
     some.projection = ProjectionOptions();
     EXPECT_NE(picture_of("run", some).rgb, picture_of("bare", some).rgb);
+}
+
+TEST_F(RenderObstacles, ThatAreManyBallsTakeMemoryByWhatIsSeenOfThem) {
+    const auto peak = [] {  // KiB
+        rusage usage = {};
+        getrusage(RUSAGE_SELF, &usage);
+        return usage.ru_maxrss;
+    };
+    std::vector<ObstacleShape<4>> balls;
+    for (int i = 0; i < 400; ++i) {
+        const double angle = 0.3 * i;
+        balls.emplace_back(Ball<4>{{std::cos(angle), 0.002 * i, std::sin(angle), 0.5}, 0.02});
+    }
+    write_obstacles<4>(folder_ / "run/obstacles.json", balls);
+    const long before = peak();
+    EXPECT_NE(picture_of("run", options()).rgb, picture_of("bare", options()).rgb);
+    EXPECT_LT(peak() - before, 700'000);  // balls that are as fine as large ones have: 3 GB
 }
 
 TEST_F(RenderObstacles, ThatMoveAreWhereTheyAreAtEachFrame) {

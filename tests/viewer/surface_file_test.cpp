@@ -38,7 +38,8 @@ TEST(WriteSurface, PlyReadsBackToTheBit) {
     const TempFolder folder;
     const Surface surface = some_slice();
     SurfaceExtras extras;
-    extras.scalars.push_back({"w", Eigen::VectorXd::LinSpaced(surface.vertex_count(), 0, 1)});
+    extras.scalars.push_back(  // beyond floats, too
+        {"w", Eigen::VectorXd::LinSpaced(surface.vertex_count(), -1e60, 1)});
     extras.colors.setConstant(3, surface.vertex_count(), 1.0F);
     extras.comment = "a test";
     write_surface(folder / "a.ply", surface, SurfaceFormat::Ply, extras);
@@ -50,7 +51,7 @@ TEST(WriteSurface, PlyReadsBackToTheBit) {
     EXPECT_EQ(header,
               "ply\nformat binary_little_endian 1.0\ncomment a test\nelement vertex " +
                   std::to_string(surface.vertex_count()) +
-                  "\nproperty double x\nproperty double y\nproperty double z\nproperty float w\n"
+                  "\nproperty double x\nproperty double y\nproperty double z\nproperty double w\n"
                   "property uchar red\nproperty uchar green\nproperty uchar blue\nelement face " +
                   std::to_string(surface.triangle_count()) +
                   "\nproperty list uchar uint vertex_indices\nend_header\n");
@@ -58,7 +59,7 @@ TEST(WriteSurface, PlyReadsBackToTheBit) {
         for (int axis = 0; axis < 3; ++axis) {
             ASSERT_EQ(take<double>(bytes, at), surface.positions(axis, v));
         }
-        ASSERT_EQ(take<float>(bytes, at), static_cast<float>(extras.scalars[0].values[v]));
+        ASSERT_EQ(take<double>(bytes, at), extras.scalars[0].values[v]);
         at += 3;
     }
     for (Eigen::Index t = 0; t < surface.triangle_count(); ++t) {

@@ -55,6 +55,11 @@ void CameraFit::add(const Positions<3>& points) {
     }
 }
 
+void CameraFit::add(const CameraFit& other) {
+    supports_ = supports_.cwiseMax(other.supports_);
+    depth_ << std::min(depth_[0], other.depth_[0]), std::max(depth_[1], other.depth_[1]);
+}
+
 Camera CameraFit::camera() const {
     Camera camera;
     camera.field_of_view = field_of_view_;

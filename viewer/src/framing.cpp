@@ -1,37 +1,40 @@
 #include "framing.h"
 
-#include <algorithm>
-
 namespace pent::viewer {
 
-void Framing::add(const Positions<3>& points) {
-    tile_fit_.add(points);
-    sheet_fit_.add(points);
+void Framing::Extent::add(const Positions<3>& points) {
+    tile_fit.add(points);
+    sheet_fit.add(points);
     for (const auto& point : points.colwise()) {
-        box_.extend(point);
+        box.extend(point);
     }
+}
+
+void Framing::Extent::add(const Extent& other) {
+    tile_fit.add(other.tile_fit);
+    sheet_fit.add(other.sheet_fit);
+    box.extend(other.box);
+}
+
+void Framing::add(const Positions<3>& points) {
+    all_.add(points);
 }
 
 void Framing::add_round(const Positions<3>& points, double radius) {
-    const auto is_known = [&](const Round& round) {
-        return round.points.cols() == points.cols() && round.points == points;
-    };
-    if (std::none_of(rounds_.begin(), rounds_.end(), is_known)) {
-        rounds_.push_back({points, radius});
-    }
+    rounds_.try_emplace(radius, nothing_).first->second.add(points);
 }
 
 void Framing::settle() {
-    if (!box_.isEmpty()) {
-        reach_ = box_.diagonal().norm();
-        for (const Round& round : rounds_) {
-            if (round.radius <= reach_) {
-                add(round.points);
+    if (!all_.box.isEmpty()) {
+        reach_ = all_.box.diagonal().norm();
+        for (const auto& [radius, extent] : rounds_) {
+            if (radius <= reach_) {
+                all_.add(extent);
             }
         }
     }
-    tile_camera_ = tile_fit_.camera();
-    sheet_camera_ = sheet_fit_.camera();
+    tile_camera_ = all_.tile_fit.camera();
+    sheet_camera_ = all_.sheet_fit.camera();
 }
 
 }  // namespace pent::viewer

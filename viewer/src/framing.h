@@ -5,8 +5,7 @@
 
 #include <Eigen/Geometry>
 
-#include <utility>
-#include <vector>
+#include <map>
 
 namespace pent::viewer {
 
@@ -16,13 +15,12 @@ class Framing {
 public:
     /// @param tile   For tiles of a picture.
     /// @param sheet  For tiles of a contact sheet, or of a sweep.
-    Framing(CameraFit tile, CameraFit sheet)
-        : tile_fit_(std::move(tile)), sheet_fit_(std::move(sheet)) {}
+    Framing(const CameraFit& tile, const CameraFit& sheet) : nothing_{tile, sheet, {}} {}
 
     /// Points of a body.
     void add(const Positions<3>& points);
 
-    /// Points of something round, m; the same for many frames counts once.
+    /// Points of something round, m.
     void add_round(const Positions<3>& points, double radius);
 
     /// Settles the cameras.
@@ -35,18 +33,21 @@ public:
     [[nodiscard]] double reach() const { return reach_; }
 
     /// Around all that is seen; empty if there is no body in it.
-    [[nodiscard]] const Eigen::AlignedBox3d& box() const { return box_; }
+    [[nodiscard]] const Eigen::AlignedBox3d& box() const { return all_.box; }
 
 private:
-    struct Round {
-        Positions<3> points;
-        double radius = 0;
+    struct Extent {
+        CameraFit tile_fit;
+        CameraFit sheet_fit;
+        Eigen::AlignedBox3d box;
+
+        void add(const Positions<3>& points);
+        void add(const Extent& other);
     };
 
-    CameraFit tile_fit_;
-    CameraFit sheet_fit_;
-    std::vector<Round> rounds_;  // each once
-    Eigen::AlignedBox3d box_;
+    Extent nothing_;
+    Extent all_ = nothing_;
+    std::map<double, Extent> rounds_;  // of what is round, by its radius
     double reach_ = 0;
     Camera tile_camera_;
     Camera sheet_camera_;

@@ -4,6 +4,8 @@
 #include <pent/viewer/obstacle_surface.h>
 
 #include <algorithm>
+#include <cmath>
+#include <numbers>
 #include <utility>
 #include <variant>
 
@@ -32,8 +34,24 @@ Color obstacle_color() {
     return from_oklch(0.80F, 0.012F, 75);
 }
 
-RenderObject wall_object(const ObstacleSlice& slice, const Color& color, float opacity) {
-    TriangleMesh mesh = wall_surface(slice);
+int round_circle(const Sphere& ball, const Camera& camera, int height) {
+    constexpr double kDent = 0.1;  // pixels; samples at edges are an eighth apart
+    const double distance = (ball.center - camera.position).norm() - ball.radius;
+    const double pixels =
+        ball.radius * height / (2 * std::tan(camera.field_of_view / 2) * distance);
+    if (!(distance > 0)) {
+        return kFineCircle;  // around the eye
+    }
+    // A chord is r (1 - cos(pi / n)) inside, which is below r (pi / n)^2 / 2.
+    const double eighths = std::ceil(std::numbers::pi * std::sqrt(pixels / (2 * kDent)) / 8);
+    return 8 * static_cast<int>(std::clamp(eighths, 1.0, kFineCircle / 8.0));
+}
+
+RenderObject wall_object(const ObstacleSlice& slice,
+                         const Color& color,
+                         float opacity,
+                         int circle) {
+    TriangleMesh mesh = wall_surface(slice, circle);
     Positions<3> normals;
     if (slice.ball) {
         normals.resize(3, 3 * mesh.triangle_count());
@@ -50,8 +68,15 @@ RenderObject wall_object(const ObstacleSlice& slice, const Color& color, float o
 
 RenderObject outline_object(const ObstacleShape<4>& obstacle,
                             const Projection& projection,
-                            float opacity) {
-    TriangleMesh mesh = obstacle_outline(obstacle, projection, kFineCircle);
+                            float opacity,
+                            const Camera& camera,
+                            int height) {
+    TriangleMesh mesh = obstacle_outline(obstacle, projection, kCoarseCircle);
+    if (std::holds_alternative<Ball<4>>(obstacle) && mesh.vertex_count() > 0) {
+        const Eigen::AlignedBox3d box = bounding_box(mesh);
+        const Sphere around{box.center(), 0.5 * box.sizes().maxCoeff()};
+        mesh = obstacle_outline(obstacle, projection, round_circle(around, camera, height));
+    }
     Positions<3> normals =
         corner_normals(mesh, std::holds_alternative<Ball<4>>(obstacle) ? kSmooth : kFlat);
     return to_object(std::move(mesh), std::move(normals), obstacle_color(), opacity);

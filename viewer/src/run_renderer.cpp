@@ -126,18 +126,18 @@ void RunRenderer<Dim>::look_at(int frame) {
 
 template <int Dim>
 void RunRenderer<Dim>::look_at_obstacles(const Tile& tile, const Snapshot<Dim>& snapshot) {
-    constexpr int kCoarse = 32;  // corners of a circle: half a percent of the radius
     for (const ObstacleShape<Dim>& obstacle : shown_obstacles(snapshot)) {
         for (const std::size_t section : tile.sections) {
             const ObstacleSlice slice = take_section<Dim>(obstacle, sections_[section]);
             const std::optional<double> radius = radius_of(slice);
             if (radius && (!slice.hollow || section == tile.solid)) {
-                framing_.add_round(wall_surface(slice, kCoarse).positions, *radius);
+                framing_.add_round(wall_surface(slice, kCoarseCircle).positions, *radius);
             }
         }
         if constexpr (Dim == 4) {
             if (options_.projection) {
-                const TriangleMesh image = obstacle_outline(obstacle, projection_of(tile), kCoarse);
+                const TriangleMesh image =
+                    obstacle_outline(obstacle, projection_of(tile), kCoarseCircle);
                 framing_.add_round(image.positions, 0.5 * bounding_box(image).diagonal().norm());
             }
         }
@@ -290,18 +290,22 @@ void RunRenderer<Dim>::add_items(const Tile& tile,
 template <int Dim>
 void RunRenderer<Dim>::add_obstacle_ghosts(const Tile& tile,
                                            const Snapshot<Dim>& snapshot,
+                                           const Camera& camera,
+                                           int height,
                                            std::vector<RenderObject>& objects) const {
     for (const ObstacleShape<Dim>& obstacle : shown_obstacles(snapshot)) {
         for (const std::size_t section : tile.sections) {
             const ObstacleSlice slice = take_section<Dim>(obstacle, sections_[section]);
             const std::optional<Color> tint = ghost_tint(tile, section);
             if (tint && (slice.ball || slice.block)) {
-                objects.push_back(wall_object(slice, *tint, kOnionOpacity));
+                const int circle = slice.ball ? round_circle(*slice.ball, camera, height) : 0;
+                objects.push_back(wall_object(slice, *tint, kOnionOpacity, circle));
             }
         }
         if constexpr (Dim == 4) {
             if (options_.projection) {
-                objects.push_back(outline_object(obstacle, projection_of(tile), kOutlineOpacity));
+                objects.push_back(
+                    outline_object(obstacle, projection_of(tile), kOutlineOpacity, camera, height));
             }
         }
     }
@@ -315,7 +319,7 @@ Image RunRenderer<Dim>::paint(const Snapshot<Dim>& snapshot,
                               bool has_bar) const {
     std::vector<RenderObject> objects;
     add_items(tile, snapshot, objects);
-    add_obstacle_ghosts(tile, snapshot, objects);
+    add_obstacle_ghosts(tile, snapshot, camera, size.height, objects);
     RenderOptions render;
     render.width = size.width;
     render.height = size.height;
@@ -325,7 +329,8 @@ Image RunRenderer<Dim>::paint(const Snapshot<Dim>& snapshot,
         take_sections<Dim>(shown_obstacles(snapshot), sections_[tile.solid]);
     for (const ObstacleSlice& slice : obstacles) {
         if (slice.block || (slice.ball && slice.ball->radius <= framing_.reach())) {
-            objects.push_back(wall_object(slice, obstacle_color(), 1));
+            const int circle = slice.ball ? round_circle(*slice.ball, camera, size.height) : 0;
+            objects.push_back(wall_object(slice, obstacle_color(), 1, circle));
         } else if (!slice.is_empty) {
             render.grounds.push_back(slice);
         }

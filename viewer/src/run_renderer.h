@@ -97,6 +97,8 @@ private:
                    std::vector<RenderObject>& objects) const;
     void add_obstacle_ghosts(const Tile& tile,
                              const Snapshot<Dim>& snapshot,
+                             const Camera& camera,
+                             int height,
                              std::vector<RenderObject>& objects) const;
     [[nodiscard]] Image paint(const Snapshot<Dim>& snapshot,
                               const Tile& tile,

@@ -40,7 +40,7 @@ std::string ply_header(const TriangleMesh& surface, const SurfaceExtras& extras)
     header += "element vertex " + std::to_string(surface.vertex_count())
               + "\nproperty double x\nproperty double y\nproperty double z\n";
     for (const VertexScalar& scalar : extras.scalars) {
-        header += "property float " + scalar.name + "\n";
+        header += "property double " + scalar.name + "\n";
     }
     if (has_colors(extras)) {
         header += "property uchar red\nproperty uchar green\nproperty uchar blue\n";
@@ -51,14 +51,14 @@ std::string ply_header(const TriangleMesh& surface, const SurfaceExtras& extras)
 
 std::string ply_bytes(const TriangleMesh& surface, const SurfaceExtras& extras) {
     std::string bytes = ply_header(surface, extras);
-    bytes.reserve(bytes.size() + 64 * static_cast<std::size_t>(surface.vertex_count())
+    bytes.reserve(bytes.size() + 72 * static_cast<std::size_t>(surface.vertex_count())
                   + 13 * static_cast<std::size_t>(surface.triangle_count()));
     for (Eigen::Index v = 0; v < surface.vertex_count(); ++v) {
         for (int axis = 0; axis < 3; ++axis) {
             append(bytes, surface.positions(axis, v));
         }
         for (const VertexScalar& scalar : extras.scalars) {
-            append(bytes, static_cast<float>(scalar.values[v]));
+            append(bytes, scalar.values[v]);
         }
         if (has_colors(extras)) {
             append(bytes, to_srgb(extras.colors.col(v)));

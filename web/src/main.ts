@@ -10,14 +10,21 @@ declare global {
 
 // Whatever goes wrong, there are words on the page.
 function showFailure(error: Error): void {
-    byId("stage").append(
+    document.body.append(
         element(
-            "div",
+            "main",
             { class: "failure", role: "alert" },
-            element("h2", {}, "This cannot be shown here"),
+            element("h1", {}, "This cannot be shown here"),
             element("p", {}, error.message),
+            element(
+                "p",
+                {},
+                "Pictures, movies and slices of the same bodies need no graphics card: " +
+                    "pent-render RUN/ -o movie.mp4, pent-slice RUN/ -o slices/",
+            ),
         ),
     );
+    byId("app").remove();
 }
 
 try {

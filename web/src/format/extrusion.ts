@@ -5,6 +5,7 @@ import { cellName, cellNamePlural } from "./header.ts";
 import type { Dimension, Header } from "./header.ts";
 import { determinant, validate } from "./mesh.ts";
 import type { Mesh } from "./mesh.ts";
+import { allOrders } from "./orders.ts";
 import type { PlyElement, PlyType } from "./ply.ts";
 
 // Base and layers of an extruded body (docs/pent-format.md): the mesh that <pent/extrusion.h> makes of them, vertex by
@@ -100,38 +101,23 @@ function require(element: PlyElement, columns: [string, PlyType][], path: string
     }
 }
 
-// All orders of 0, 1 and so on, in the sequence of a dictionary.
-function allOrders(items: number[]): number[][] {
-    return items.length === 0
-        ? [[]]
-        : items.flatMap((first) =>
-              allOrders(items.filter((item) => item !== first)).map((rest) => [first, ...rest]),
-          );
-}
-
-function isOdd(order: number[]): boolean {
-    const swaps = order.flatMap((a, i) => order.slice(i + 1).filter((b) => a > b));
-    return swaps.length % 2 === 1;
-}
-
 function orderCorners(base: Mesh, codes: Uint32Array, path: string): OrderedCells {
     const size = base.dimension + 1;
-    const orders = allOrders(Array.from({ length: size }, (_, k) => k));
-    const areOdd = orders.map(isOdd);
+    const orders = allOrders(size);
     const corners = new Uint32Array(base.cells.length);
     codes.forEach((code, cell) => {
-        const order = orders[code];
-        if (!order) {
+        const chosen = orders[code];
+        if (!chosen) {
             throw new PentError(
                 `${path}: ${cellName(base.dimension)} ${cell}: order is ${code}, ` +
                     `expected at most ${orders.length - 1}`,
             );
         }
-        order.forEach((corner, k) => {
+        chosen.order.forEach((corner, k) => {
             corners[size * cell + k] = base.cells[size * cell + corner]!;
         });
     });
-    return { corners, isOdd: Array.from(codes, (code) => areOdd[code]!) };
+    return { corners, isOdd: Array.from(codes, (code) => orders[code]!.isOdd) };
 }
 
 function checkedLayers(

@@ -1,8 +1,7 @@
 import type { Mesh } from "../format/mesh.ts";
-import { readMesh } from "../format/pent_file.ts";
 import { writeMesh } from "../format/write_pent.ts";
-import { extrude } from "../mesh/extrude.ts";
-import { gridMesh, toBall } from "../run/example.ts";
+import { gridMesh } from "../mesh/grid.ts";
+import { toBall } from "../run/example.ts";
 import octopusFile from "../../gallery/octopus.pent";
 import type { SceneFiles } from "./protocol.ts";
 
@@ -49,11 +48,10 @@ function body(name: string, material: string, more = ""): string {
 
 interface Parts {
     text: string;
-    meshes: Record<string, Mesh>;
+    meshes: Record<string, Mesh | Uint8Array>; // or the bytes of a file
 }
 
 function octopus(): Parts {
-    const base = readMesh(octopusFile, "octopus.pent");
     return {
         text:
             head() +
@@ -61,7 +59,7 @@ function octopus(): Parts {
             kFloor.replace("offset = 0 ", "offset = -0.6 ") +
             kWalls +
             kSettings,
-        meshes: { octopus: extrude(base, [-0.4, -0.13, 0.13, 0.4]) },
+        meshes: { octopus: octopusFile },
     };
 }
 
@@ -166,7 +164,7 @@ export function galleryFiles(name: string): SceneFiles {
     const { text, meshes } = kMakers[name]!();
     const files: SceneFiles = new Map([[kSceneName, new TextEncoder().encode(text)]]);
     for (const [mesh, made] of Object.entries(meshes)) {
-        files.set(`${mesh}.pent`, writeMesh(made));
+        files.set(`${mesh}.pent`, made instanceof Uint8Array ? made : writeMesh(made));
     }
     return files;
 }

@@ -1,3 +1,4 @@
+import { readOrSay } from "../run/sources.ts";
 import type { SceneFiles } from "./protocol.ts";
 
 /** A scene among files that were dropped. */
@@ -24,7 +25,7 @@ export function sceneAmong(paths: string[]): DroppedScene | null {
             const taken: SceneFiles = new Map();
             for (const [path, file] of files) {
                 if (path.startsWith(folder) && /\.(toml|pent)$/.test(path)) {
-                    const bytes = new Uint8Array(await file.arrayBuffer());
+                    const bytes = new Uint8Array(await readOrSay(path, file.arrayBuffer()));
                     taken.set(path.slice(folder.length), bytes);
                 }
             }

@@ -1,11 +1,11 @@
 import type { Mesh } from "../format/mesh.ts";
 import { makeBoundary } from "../mesh/boundary.ts";
+import { gridMesh } from "../mesh/grid.ts";
+import type { Point } from "../mesh/grid.ts";
 import { makeRestCells, strains, toFloat4 } from "../mesh/quantities.ts";
 import type { RestCells } from "../mesh/quantities.ts";
 import type { Body } from "./decode.ts";
 import type { Moment, Run } from "./run.ts";
-
-type Point = [number, number, number, number];
 
 interface Example {
     title: string;
@@ -70,64 +70,6 @@ export const kExamples: Record<string, Example> = {
             ) as Point,
     },
 };
-
-// All orders of four axes, and whether each is even.
-function orders(): { axes: number[]; isEven: boolean }[] {
-    const found: { axes: number[]; isEven: boolean }[] = [];
-    const extend = (axes: number[], swaps: number) => {
-        if (axes.length === 4) {
-            found.push({ axes, isEven: swaps % 2 === 0 });
-        }
-        [0, 1, 2, 3]
-            .filter((axis) => !axes.includes(axis))
-            .forEach((axis) =>
-                extend([...axes, axis], swaps + axes.filter((other) => other > axis).length),
-            );
-    };
-    extend([], 0);
-    return found;
-}
-
-/** A box of tesseracts, each cut into 24 pentachora along its long diagonal [kuhn1960]. */
-export function gridMesh(counts: readonly number[], shape: (p: Point) => Point): Mesh {
-    const sides = counts.map((count) => count + 1);
-    const number = (at: number[]) => at.reduce((sum, k, axis) => sum * sides[axis]! + k, 0);
-    const positions: number[] = [];
-    const cells: number[] = [];
-    const all = orders();
-    const visit = (at: number[], limit: readonly number[], action: (at: number[]) => void) => {
-        if (at.length === 4) {
-            action(at);
-            return;
-        }
-        for (let k = 0; k < limit[at.length]!; ++k) {
-            visit([...at, k], limit, action);
-        }
-    };
-    visit([], sides, (at) => {
-        positions.push(...shape(at.map((k, axis) => (2 * k) / counts[axis]! - 1) as Point));
-    });
-    visit([], counts, (at) => {
-        for (const { axes, isEven } of all) {
-            const corner = [...at];
-            const path = [number(corner)];
-            for (const axis of axes) {
-                ++corner[axis]!;
-                path.push(number(corner));
-            }
-            cells.push(...(isEven ? path : [path[0]!, path[1]!, path[2]!, path[4]!, path[3]!]));
-        }
-    });
-    return {
-        dimension: 4,
-        vertexCount: positions.length / 4,
-        cellCount: cells.length / 5,
-        positions: Float64Array.from(positions),
-        cells: Uint32Array.from(cells),
-        crc: 0,
-        createdBy: "",
-    };
-}
 
 /** An example as a run of one body. */
 export class ExampleRun implements Run {

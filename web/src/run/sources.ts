@@ -36,11 +36,16 @@ export class LocalFiles implements FileSource {
         if (!file) {
             throw new PentError(`${this.prefix}${path}: no such file among those that were opened`);
         }
-        try {
-            return new Uint8Array(await file.arrayBuffer());
-        } catch (error) {
-            throw new PentError(`${path}: cannot be read: ${(error as Error).message}`);
-        }
+        return new Uint8Array(await readOrSay(path, file.arrayBuffer()));
+    }
+}
+
+/** Rejects with a PentError where a browser cannot read a file: it is gone, or must not be read. */
+export async function readOrSay<Value>(path: string, reading: Promise<Value>): Promise<Value> {
+    try {
+        return await reading;
+    } catch (error) {
+        throw new PentError(`${path}: cannot be read: ${(error as Error).message}`);
     }
 }
 
@@ -77,11 +82,21 @@ function obstacleFiles(text: unknown): ObstacleFiles {
     return kObstacleFiles.find((one) => one === text) ?? "unknown";
 }
 
+// What either has, as long as it is what it seems.
+interface Told {
+    mesh?: unknown;
+    meshes?: unknown[];
+    frames?: object; // ranges by body, or a list of frames
+    follow?: unknown;
+    obstacles?: unknown;
+    bodies?: { name: string }[];
+    verdict?: unknown;
+}
+
 /** Understands run.json, what pent-view says of a run, or a report.json of pent-sim. */
 export function parseListing(text: string, where: string): Listing {
-    let json;
     try {
-        json = JSON.parse(text);
+        const json = JSON.parse(text) as Told;
         if (typeof json.mesh === "string") {
             return listMesh(json.mesh);
         }
@@ -97,8 +112,8 @@ export function parseListing(text: string, where: string): Listing {
                 obstacles: obstacleFiles(json.obstacles),
             };
         }
-        const bodies: string[] = json.bodies.map((body: { name: string }) => body.name);
-        const numbers: number[] = json.frames.map((frame: { frame: number }) => frame.frame);
+        const bodies = json.bodies!.map((body) => body.name);
+        const numbers = (json.frames as { frame: number }[]).map((frame) => frame.frame);
         return {
             meshes: bodies.sort(),
             frames: new Map(bodies.map((body) => [body, numbers])),
@@ -203,18 +218,19 @@ export async function droppedFiles(transfer: DataTransfer): Promise<Map<string, 
     }
     const visit = async (entry: FileSystemEntry, path: string): Promise<void> => {
         if (entry.isFile) {
-            const file = await new Promise<File>((resolve, reject) =>
+            const reading = new Promise<File>((resolve, reject) =>
                 (entry as FileSystemFileEntry).file(resolve, reject),
             );
-            files.set(path, file);
+            files.set(path, await readOrSay(path, reading));
             return;
         }
         const reader = (entry as FileSystemDirectoryEntry).createReader();
         for (;;) {
             // it gives some at a time
-            const some = await new Promise<FileSystemEntry[]>((resolve, reject) =>
+            const reading = new Promise<FileSystemEntry[]>((resolve, reject) =>
                 reader.readEntries(resolve, reject),
             );
+            const some = await readOrSay(path, reading);
             if (some.length === 0) {
                 return;
             }

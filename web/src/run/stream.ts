@@ -9,6 +9,7 @@ import type { Moment, Run } from "./run.ts";
 export class FrameStream {
     private cache: ByteCache<number, Moment>;
     private wanted: number[] = []; // places in run.frames, the most urgent first
+    private first = -1; // of these, the last time
     private underWay = new Set<number>();
     private failures = new Map<number, Error>();
 
@@ -61,6 +62,10 @@ export class FrameStream {
                 this.wanted.push(next % count);
             }
         }
+        if (place !== this.first) {
+            this.failures.delete(place); // what could not be read is tried again when it is come back to
+        }
+        this.first = place;
         this.pump();
     }
 

@@ -32,6 +32,31 @@ export function zoom(viewer: Viewer, factor: number): void {
     viewer.update({ orbit: { ...orbit, zoom: Math.min(50, Math.max(0.1, orbit.zoom * factor)) } });
 }
 
+/** Turns the camera about the bodies, by degrees. */
+export function look(viewer: Viewer, right: number, up: number): void {
+    const { orbit } = viewer.state;
+    const elevation = Math.min(89, Math.max(-89, orbit.elevation + up));
+    viewer.update({ orbit: { ...orbit, azimuth: (orbit.azimuth + right) % 360, elevation } });
+}
+
+/** Moves the picture, by parts of the smaller of its width and height. */
+export function pan(viewer: Viewer, right: number, up: number): void {
+    const { orbit } = viewer.state;
+    const radii = 2 / orbit.zoom;
+    const [panX, panY] = [orbit.panX - radii * right, orbit.panY - radii * up];
+    viewer.update({ orbit: { ...orbit, panX, panY } });
+}
+
+// The four keys under the right hand, as arrows lie.
+const kLooks = [
+    ["I", "above", 0, 1],
+    ["J", "the left", -1, 0],
+    ["K", "below", 0, -1],
+    ["L", "the right", 1, 0],
+] as const;
+const kLookDegrees = 10;
+const kPanPart = 1 / 20;
+
 export const kActions: Action[] = [
     {
         keys: ["Space"],
@@ -122,6 +147,20 @@ export const kActions: Action[] = [
         does: "further away",
         run: (viewer) => zoom(viewer, 1 / 1.2),
     },
+    ...kLooks.map(
+        ([key, way, right, up]): Action => ({
+            keys: [`Key${key}`],
+            shown: key,
+            does: `look from ${way} (move with shift)`,
+            run(viewer, isShift) {
+                if (isShift) {
+                    pan(viewer, kPanPart * right, kPanPart * up);
+                } else {
+                    look(viewer, kLookDegrees * right, kLookDegrees * up);
+                }
+            },
+        }),
+    ),
     {
         keys: ["KeyR"],
         shown: "R",

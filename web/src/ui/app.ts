@@ -26,6 +26,8 @@ import { VideoRecorder, savePicture, saveSlice } from "./saving.ts";
 import { showWelcome } from "./welcome.ts";
 
 const kFollowEvery = 1500; // ms
+const kRestsFor = 500; // ms
+const kPatience = 700; // ms until it is said that a frame is waited for
 const kFirstExample = "tesseract";
 const kFirstScene = "octopus";
 
@@ -50,6 +52,8 @@ export class App {
     });
     private folder = element("input", { type: "file", webkitdirectory: true, hidden: true });
     private addressTimer = 0;
+    private sayTimer = 0;
+    private waitTimer = 0;
     readonly play: PlayPage;
     private mode = segments(
         "Mode",
@@ -283,18 +287,30 @@ export class App {
             button("Keys and gestures", kIcons.help, () =>
                 byId<HTMLDialogElement>("help").showModal(),
             ),
-            button("Controls", kIcons.panel, () => document.body.classList.toggle("panel-toggled")),
+            this.panelButton(),
             this.files,
             this.folder,
         );
-        this.files.addEventListener(
-            "change",
-            () => void this.openLocal(chosenFiles(this.files.files!)),
+        for (const input of [this.files, this.folder]) {
+            input.addEventListener("change", () => {
+                const files = chosenFiles(input.files!);
+                input.value = ""; // so that the same ones, changed meanwhile, can be chosen again
+                void this.attempt(() => this.openLocal(files));
+            });
+        }
+    }
+
+    // Whether the panel is there at first depends on the width of the window.
+    private panelButton(): HTMLElement {
+        const panel = byId("panel");
+        const made = button("Controls", kIcons.panel, () =>
+            document.body.classList.toggle("panel-toggled"),
         );
-        this.folder.addEventListener(
-            "change",
-            () => void this.openLocal(chosenFiles(this.folder.files!)),
-        );
+        made.setAttribute("aria-controls", panel.id);
+        new ResizeObserver(() => {
+            made.ariaExpanded = String(panel.clientWidth > 0);
+        }).observe(panel);
+        return made;
     }
 
     private async record(): Promise<void> {
@@ -340,6 +356,15 @@ export class App {
         viewer.on("notice", ({ text, isError }) =>
             isError ? this.messages.error(text) : this.messages.note(text),
         );
+        viewer.on("waiting", (frame) => {
+            clearTimeout(this.waitTimer);
+            if (frame === null) {
+                this.messages.busy("", "frame");
+            } else {
+                const say = () => this.messages.busy(`Loading frame ${frame}`, "frame");
+                this.waitTimer = window.setTimeout(say, kPatience);
+            }
+        });
         viewer.on("state", () => {
             this.applyTheme();
             clearTimeout(this.addressTimer);
@@ -368,7 +393,8 @@ export class App {
         document.addEventListener("drop", (event) => {
             event.preventDefault();
             if (event.dataTransfer) {
-                void droppedFiles(event.dataTransfer).then((files) => this.openLocal(files));
+                const dropped = droppedFiles(event.dataTransfer);
+                void this.attempt(async () => this.openLocal(await dropped));
             }
         });
         this.applyTheme();
@@ -401,7 +427,17 @@ export class App {
         if (action && this.viewer.run) {
             event.preventDefault();
             action.run(this.viewer, event.shiftKey);
+            this.sayLater();
         }
+    }
+
+    // What keys have done, once they rest: who cannot see the picture hears it.
+    private sayLater(): void {
+        clearTimeout(this.sayTimer);
+        this.sayTimer = window.setTimeout(
+            () => this.messages.say(describe(this.viewer)),
+            kRestsFor,
+        );
     }
 
     private watchSize(): void {

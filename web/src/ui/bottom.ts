@@ -10,6 +10,7 @@ const kSteps = 1000; // of the slider of w
 
 /** The bar under the picture: w, and time. */
 export class Bottom {
+    // The sliders say their values themselves; said as they change, they would never end.
     private w: HTMLInputElement;
     private wValue: HTMLOutputElement;
     private wRow: HTMLElement;
@@ -33,7 +34,7 @@ export class Bottom {
             "aria-label": "slice at w",
             input: () => viewer.update({ w: this.toW(Number(this.w.value)) }),
         });
-        this.wValue = element("output", { class: "value", for: "w" });
+        this.wValue = element("output", { class: "value", "aria-live": "off" });
         this.wRow = element(
             "div",
             { class: "bar" },
@@ -57,7 +58,7 @@ export class Bottom {
                 viewer.update({ frame: viewer.run!.frames[Number(this.time.value)]! });
             },
         });
-        this.timeValue = element("output", { class: "value" });
+        this.timeValue = element("output", { class: "value", "aria-live": "off" });
         this.loop = button("Loop", kIcons.loop, () => viewer.update({ loop: !viewer.state.loop }));
         this.speed = element("select", {
             "aria-label": "speed of playing",

@@ -103,7 +103,7 @@ export class Slider {
      *  @param onChange  Is given what was chosen, by either. */
     constructor(
         label: string,
-        unit: string,
+        private unit: string,
         range: { min: number; max: number; step: number },
         onChange: (value: number) => void,
         private curve = kStraight,
@@ -142,9 +142,11 @@ export class Slider {
     }
 
     show(value: number, digits: number): void {
+        const text = String(Number(value.toFixed(digits)));
         this.input.value = String(this.curve.toPlace(value));
+        this.input.ariaValueText = `${text} ${this.unit}`.trim(); // not the place
         if (document.activeElement !== this.number) {
-            this.number.value = String(Number(value.toFixed(digits)));
+            this.number.value = text;
         }
     }
 }

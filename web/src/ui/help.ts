@@ -16,6 +16,8 @@ const kGestures = [
 const kPlaying = [
     ["drag a body", "pull it, along the picture"],
     ["wheel or shift while pulling", "pull it along w"],
+    ["P", "take hold of what is in the middle; let go (escape)"],
+    ["arrows while holding", "pull along the picture; along w with shift"],
     ["space", "pause, go on"],
     ["\u2192", "one step"],
     ["backspace", "back to the start"],

@@ -7,7 +7,7 @@ const kMaxMessages = 4;
 
 /** Messages over the picture; also said to screen readers. */
 export class Messages {
-    private progress: HTMLElement | null = null;
+    private progress = new Map<string, HTMLElement>(); // by what it is that takes its time
 
     constructor(private root: HTMLElement) {}
 
@@ -38,13 +38,14 @@ export class Messages {
     }
 
     /** A line that something is under way; "" ends it. */
-    busy(text: string): void {
-        this.progress ??= element("div", { class: "message busy" });
-        this.progress.replaceChildren(element("span", { class: "spinner" }), text);
+    busy(text: string, what: "task" | "frame" = "task"): void {
+        const line = this.progress.get(what) ?? element("div", { class: "message busy" });
+        this.progress.set(what, line);
+        line.replaceChildren(element("span", { class: "spinner" }), text);
         if (text === "") {
-            this.progress.remove();
+            line.remove();
         } else {
-            this.root.append(this.progress);
+            this.root.append(line);
             this.say(text);
         }
     }

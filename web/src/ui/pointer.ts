@@ -1,5 +1,5 @@
 import type { Viewer } from "../view/viewer.ts";
-import { moveW, zoom } from "./actions.ts";
+import { look, moveW, pan, zoom } from "./actions.ts";
 import type { Hand } from "./play/hand.ts";
 
 /** What dragging does to a body that moves, where there is one. */
@@ -154,27 +154,17 @@ export class Pointer {
 
     private drag(tool: ViewTool, dx: number, dy: number): void {
         const { viewer } = this;
-        const { orbit } = viewer.state;
         if (tool === "look") {
-            const elevation = Math.min(89, Math.max(-89, orbit.elevation + dy * kDegreesPerPixel));
-            const azimuth = (orbit.azimuth - dx * kDegreesPerPixel) % 360;
-            viewer.update({ orbit: { ...orbit, azimuth, elevation } });
+            look(viewer, -dx * kDegreesPerPixel, dy * kDegreesPerPixel);
             return;
         }
         if (tool === "pan") {
-            const perPixel =
-                2 / Math.min(this.canvas.clientHeight, this.canvas.clientWidth) / orbit.zoom;
-            viewer.update({
-                orbit: {
-                    ...orbit,
-                    panX: orbit.panX - dx * perPixel,
-                    panY: orbit.panY + dy * perPixel,
-                },
-            });
+            const smaller = Math.min(this.canvas.clientHeight, this.canvas.clientWidth);
+            pan(viewer, dx / smaller, -dy / smaller);
             return;
         }
         // Seen from behind, across is the other way round.
-        const side = Math.cos((orbit.azimuth * Math.PI) / 180) < 0 ? -1 : 1;
+        const side = Math.cos((viewer.state.orbit.azimuth * Math.PI) / 180) < 0 ? -1 : 1;
         const across = side * dx * kDegreesPerPixel;
         const upright = -dy * kDegreesPerPixel;
         const [first, second] = {

@@ -68,14 +68,6 @@ export class VideoRecorder {
         this.track?.requestFrame(); // also where the page is too busy to be asked
     }
 
-    get isRecording(): boolean {
-        return this.recorder !== null;
-    }
-
-    stop(): void {
-        this.viewer.pause();
-    }
-
     /** Resolves when the video has been handed over to be saved. */
     async record(): Promise<void> {
         const { viewer } = this;
@@ -116,7 +108,7 @@ export class VideoRecorder {
 
 /** The slices shown, all bodies together, as a binary PLY of triangles, the way the shader made
  * them: closed, each edge with two triangles. */
-export function slicePly(viewer: Viewer): Blob {
+function slicePly(viewer: Viewer): Blob {
     const picture = viewer.makePicture(64, 64, 1);
     const parts = slicePlaces(viewer.state, viewer.bounds, viewer.run!.dimension).flatMap((w) =>
         viewer.run!.bodies.map((_, body) => viewer.renderer.captureSlice(picture, body, w)),

@@ -131,6 +131,14 @@ export class Bounds {
         this.pivot = moved(home.pivot) as [number, number, number, number];
     }
 
+    /** Of a ball about the pivot with what is seen of the box itself before it is turned, m. */
+    get boxRadius(): number {
+        const { low, high, pivot } = this;
+        return Math.hypot(
+            ...[0, 1, 2].map((k) => Math.max(pivot[k]! - low[k]!, high[k]! - pivot[k]!)),
+        );
+    }
+
     /** Lowest and highest coordinate along an axis that is seen, as the box is turned. */
     reach(rotation: Rotation, axis: number): [number, number] {
         const center = this.low.map((low, k) => (low + this.high[k]!) / 2 - this.pivot[k]!);

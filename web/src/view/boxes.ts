@@ -1,7 +1,7 @@
 import { axesOf } from "../format/obstacles.ts";
 import type { Obstacle } from "../format/obstacles.ts";
 import { makeBoundary } from "../mesh/boundary.ts";
-import { boxMesh } from "../mesh/box.ts";
+import { gridMesh } from "../mesh/grid.ts";
 import { toFloat4 } from "../mesh/quantities.ts";
 import type { Body, BodyFrame } from "../run/decode.ts";
 
@@ -18,7 +18,9 @@ export class Boxes {
             if (obstacle.kind !== "box") {
                 return [];
             }
-            const mesh = boxMesh(dimension);
+            const mesh = gridMesh(dimension === 3 ? [1, 1, 1] : [1, 1, 1, 1], (p) =>
+                p.map((x) => x / 2),
+            );
             this.body ??= {
                 name: "box",
                 dimension,

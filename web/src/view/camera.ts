@@ -24,7 +24,7 @@ export interface Camera {
     viewProjection: Matrix;
 }
 
-export const kFieldOfView = 28; // degrees upright, as pent-render has it
+const kFieldOfView = 28; // degrees upright, as pent-render has it
 
 /** The camera that sees a ball of this center and radius at zoom 1, with a little room around it. */
 export function makeCamera(orbit: Orbit, center: Vector, radius: number, aspect: number): Camera {

@@ -158,7 +158,7 @@ export function makePicture(state: ViewState, stage: Stage): Picture {
     const camera = makeCamera(
         state.orbit,
         center,
-        bounds.radius,
+        state.box && dimension === 4 ? Math.max(bounds.radius, bounds.boxRadius) : bounds.radius,
         width / columns / (height / rows),
     );
     const { reach } = stage;

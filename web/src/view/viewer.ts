@@ -21,6 +21,7 @@ export interface ViewerEvents {
     moment: Moment; // another one is shown
     picture: Picture; // one was drawn
     playing: boolean;
+    waiting: number | null; // for this frame, to be shown next; null: no longer
     notice: { text: string; isError: boolean };
 }
 
@@ -50,8 +51,10 @@ export class Viewer {
         moment: [],
         picture: [],
         playing: [],
+        waiting: [],
         notice: [],
     };
+    private awaited: number | null = null; // frame
     private opening = 0; // counts, so that only the last of several openings counts
     private isDue = false;
     private size = { width: 1, height: 1, pixelRatio: 1 };
@@ -188,6 +191,7 @@ export class Viewer {
     pause(): void {
         if (this.isPlaying) {
             this.isPlaying = false;
+            this.wait(null);
             this.tell("playing", false);
         }
     }
@@ -354,8 +358,8 @@ export class Viewer {
         } else if (this.stream!.get(Math.floor(next)) || this.stream!.failure(Math.floor(next))) {
             this.clock = next;
         } else {
-            // waits for it
             this.stream!.want(Math.floor(next), kAhead, this.state.loop);
+            this.wait(run.frames[Math.floor(next)]!);
             return;
         }
         const place = Math.floor(this.clock);
@@ -374,8 +378,16 @@ export class Viewer {
             this.show(moment);
         }
         const failure = this.stream.failure(place);
+        this.wait(moment || failure ? null : this.run.frames[place]!);
         if (failure) {
             this.tell("notice", { text: failure.message, isError: true });
+        }
+    }
+
+    private wait(frame: number | null): void {
+        if (frame !== this.awaited) {
+            this.awaited = frame;
+            this.tell("waiting", frame);
         }
     }
 

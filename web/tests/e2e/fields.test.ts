@@ -6,7 +6,7 @@ import { join } from "node:path";
 import { pathToFileURL } from "node:url";
 import { test } from "node:test";
 import type { Page } from "playwright-core";
-import { gridMesh } from "../../src/run/example.ts";
+import { gridMesh } from "../../src/mesh/grid.ts";
 import { kPage, openPage, pixels, useBrowser, useServer } from "../support/browser.ts";
 import { native } from "../support/native.ts";
 import { rowsOf } from "../../src/format/write_pent.ts";

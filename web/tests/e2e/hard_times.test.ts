@@ -1,7 +1,7 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 import type { Page } from "playwright-core";
-import { gridMesh } from "../../src/run/example.ts";
+import { gridMesh } from "../../src/mesh/grid.ts";
 import { dropOn, openPage, pixels, useBrowser, useServer } from "../support/browser.ts";
 import { writeFrame, writeMesh } from "../support/write_pent.ts";
 
@@ -150,5 +150,32 @@ test("a phone on its side shows the whole greeting, and the panel beside the pic
     await page.locator("button[title=Controls]").tap();
     const panel = await boxOf("#panel");
     assert.ok(panel.x > 300 && panel.height > 150, `${panel.x} ${panel.height}`);
+    await close();
+});
+
+test("where the network is slow it is said what is waited for, and what failed is tried again", async () => {
+    const { page, close } = await open("?run=usual#shade=off&loop=off");
+    // What was read ahead is here; a run that is opened anew asks again.
+    let isDown = true;
+    let letGo = () => {};
+    const said = new Promise<void>((resolve) => (letGo = resolve));
+    await page.route("**/a_000006.pent", async (route) => {
+        await (isDown ? null : said); // slow: until the page has said so
+        await (isDown ? route.abort() : route.continue());
+    });
+    await page.reload({ waitUntil: "commit" });
+    await page.waitForFunction(() => window.pentimento?.viewer.moment);
+    const go = (frame: number) =>
+        page.evaluate((frame) => window.pentimento!.viewer.update({ frame }), frame);
+    await go(6);
+    await page.locator(".message.error", { hasText: "a_000006.pent: cannot be reached" }).waitFor();
+    isDown = false;
+    await go(3);
+    await go(6);
+    const wait = page.locator(".message.busy", { hasText: "Loading frame 6" });
+    await wait.waitFor();
+    letGo();
+    await page.waitForFunction(() => window.pentimento!.viewer.moment!.frame === 6);
+    await wait.waitFor({ state: "detached" });
     await close();
 });

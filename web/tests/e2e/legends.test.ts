@@ -1,6 +1,6 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { gridMesh } from "../../src/run/example.ts";
+import { gridMesh } from "../../src/mesh/grid.ts";
 import { openPage, useBrowser, useServer } from "../support/browser.ts";
 import { writeFrame, writeMesh } from "../support/write_pent.ts";
 

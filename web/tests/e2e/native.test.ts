@@ -6,7 +6,7 @@ import { join } from "node:path";
 import { pathToFileURL } from "node:url";
 import { test } from "node:test";
 import type { Obstacle } from "../../src/format/obstacles.ts";
-import { gridMesh } from "../../src/run/example.ts";
+import { gridMesh } from "../../src/mesh/grid.ts";
 import { kPage, openPage, useBrowser } from "../support/browser.ts";
 import { obstaclesFile } from "../support/obstacles.ts";
 import { native } from "../support/native.ts";

@@ -1,7 +1,7 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 import type { Page } from "playwright-core";
-import { gridMesh } from "../../src/run/example.ts";
+import { gridMesh } from "../../src/mesh/grid.ts";
 import type { Obstacle } from "../../src/format/obstacles.ts";
 import { difference, openPage, pixels, useBrowser, useServer } from "../support/browser.ts";
 import { obstaclesFile } from "../support/obstacles.ts";

@@ -4,7 +4,7 @@ import { join } from "node:path";
 import { pathToFileURL } from "node:url";
 import { test } from "node:test";
 import type { Page } from "playwright-core";
-import { gridMesh } from "../../src/run/example.ts";
+import { gridMesh } from "../../src/mesh/grid.ts";
 import { dropOn, kPage, openPage, pixels, useBrowser, useServer } from "../support/browser.ts";
 import { kRoot } from "../support/native.ts";
 import { writeFrame, writeMesh } from "../support/write_pent.ts";
@@ -301,6 +301,8 @@ test("the page opens from a file by a double click, and takes chosen folders", a
         .setInputFiles({ name: "mesh.pent", mimeType: "", buffer: Buffer.from(kMesh) });
     await page.waitForFunction(() => window.pentimento!.viewer.run!.title === "mesh");
     assert.equal(await page.locator("input.time").isVisible(), false);
+    // The same file, changed meanwhile, can be chosen again.
+    assert.equal(await page.locator("input[multiple]").inputValue(), "");
     assert.deepEqual(
         said.filter((text) => /thrown|error/i.test(text)),
         [],
@@ -319,6 +321,18 @@ test("dropped files open, and a dropped text is refused without losing what is o
     await drop("bar.pent", [...kMesh]);
     await page.waitForFunction(() => window.pentimento!.viewer.run!.title === "bar");
     assert.equal(await page.locator(".message.error").count(), 0);
+    // What is gone before it is read.
+    await page.evaluate(() => {
+        const gone = {
+            isFile: true,
+            name: "a.pent",
+            file: (_: unknown, no: (e: Error) => void) => no(new Error("gone")),
+        };
+        DataTransferItem.prototype.webkitGetAsEntry = () => gone as unknown as FileSystemEntry;
+    });
+    await drop("a.pent", []);
+    await page.waitForSelector(".message.error");
+    assert.match(await errorText(page), /^a\.pent: cannot be read: gone/);
     await close();
 });
 
@@ -360,7 +374,10 @@ test("without WebGL 2 there are words in place of a picture", async () => {
         HTMLCanvasElement.prototype.getContext = () => null;
     });
     await page.goto(server.address());
-    assert.match(await page.locator(".failure").innerText(), /this browser has no WebGL 2/);
+    const words = await page.locator(".failure").innerText();
+    assert.match(words, /this browser has no WebGL 2/);
+    assert.match(words, /need no graphics card: pent-render/); // what works all the same
+    assert.equal(await page.locator("button, input").count(), 0); // nothing that does not
     await context.close();
 });
 

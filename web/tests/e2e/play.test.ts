@@ -7,7 +7,7 @@ import { pathToFileURL } from "node:url";
 import { test } from "node:test";
 import type { Page } from "playwright-core";
 import { writeMesh } from "../../src/format/write_pent.ts";
-import { gridMesh } from "../../src/run/example.ts";
+import { gridMesh } from "../../src/mesh/grid.ts";
 import { kPage, openPage, useBrowser, useServer } from "../support/browser.ts";
 import { native } from "../support/native.ts";
 import { unzip } from "../support/unzip.ts";
@@ -206,6 +206,64 @@ test("gravity points along all eight directions, also out of the slice", { skip 
     await close();
 });
 
+test("keys alone take hold of a body, pull it up and along w, and let go", { skip }, async () => {
+    const { page, said, close } = await open("?play=jelly#shade=off");
+    await standStill(page);
+    const press = async (key: string, count: number) => {
+        for (let i = 0; i < count; ++i) {
+            await page.keyboard.press(key);
+        }
+    };
+    await page.locator("#canvas").focus();
+    await page.keyboard.press("p");
+    await page.waitForSelector(".hand:not([hidden])");
+    const before = await shape(page);
+    await press("ArrowUp", 10);
+    await press("Shift+ArrowUp", 10);
+    assert.match((await page.locator(".hand .depth").textContent())!, /^w \+0\.\d+ m/);
+    await page.locator("button[title='One step']").click();
+    for (let i = 1; i < 10; ++i) {
+        const last = await time(page);
+        await page.locator("button[title='One step']").click();
+        await page.waitForFunction((t) => window.pentimento!.viewer.moment!.time > t, last);
+    }
+    const after = await shape(page);
+    const fallen = fall(10 / 60, 10);
+    assert.ok(after.middle[1]! > before.middle[1]! - 0.5 * fallen, "held against gravity");
+    assert.ok(after.middle[3]! > before.middle[3]! + 0.001, "pulled along w");
+    await page.locator("#canvas").focus();
+    await page.keyboard.press("Escape");
+    await page.waitForSelector(".hand", { state: "hidden" });
+    assert.deepEqual(thrown(said), []);
+    await close();
+});
+
+test(
+    "a simulation that is opened where nobody looks waits until someone does",
+    { skip },
+    async () => {
+        const { page, said, close } = await open("");
+        const look = (isHidden: boolean) =>
+            page.evaluate((isHidden) => {
+                Object.defineProperty(document, "hidden", { value: isHidden, configurable: true });
+                document.dispatchEvent(new Event("visibilitychange"));
+            }, isHidden);
+        await look(true);
+        await page.evaluate(() => window.pentimento!.openScene("jelly"));
+        await page.waitForTimeout(1000);
+        assert.equal(await time(page), 0);
+        await look(false);
+        await page.waitForFunction(() => window.pentimento!.viewer.moment!.time > 0.1);
+        await look(true);
+        await page.waitForTimeout(300); // frames that are under way
+        const before = await time(page);
+        await page.waitForTimeout(700);
+        assert.equal(await time(page), before);
+        assert.deepEqual(thrown(said), []);
+        await close();
+    },
+);
+
 test(
     "stiffness, damping and time step change what is there, and it goes on",
     { skip },
@@ -214,6 +272,9 @@ test(
         await standStill(page);
         await step(page, 3);
         const before = await shape(page);
+        // Its places are powers of ten; what is said is the factor.
+        const stiffness = page.locator("input[aria-label='stiffness \u00d7'][type=range]");
+        assert.equal(await stiffness.getAttribute("aria-valuetext"), "1");
         await page.locator("input[aria-label='stiffness \u00d7, number']").fill("4");
         await page.locator("select[aria-label='Time step']").selectOption("120");
         await page.locator("input[aria-label='damping, ms']").fill("30");

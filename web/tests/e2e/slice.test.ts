@@ -5,7 +5,7 @@ import { tmpdir } from "node:os";
 import { join } from "node:path";
 import { test } from "node:test";
 import type { Page } from "playwright-core";
-import { gridMesh } from "../../src/run/example.ts";
+import { gridMesh } from "../../src/mesh/grid.ts";
 import { openPage, useBrowser, useServer } from "../support/browser.ts";
 import { native } from "../support/native.ts";
 import { writeMesh } from "../support/write_pent.ts";

@@ -2,12 +2,12 @@ import { execFileSync } from "node:child_process";
 import { readFileSync } from "node:fs";
 import { dirname, join } from "node:path";
 import { test } from "node:test";
+import { crc32c, hex8 } from "../../src/format/crc32c.ts";
 import { readMesh } from "../../src/format/pent_file.ts";
-import { writeMesh } from "../../src/format/write_pent.ts";
-import { extrude } from "../../src/mesh/extrude.ts";
+import { join as joinFile } from "../../src/format/write_pent.ts";
 import { galleryFiles } from "../../src/play/gallery.ts";
 import { kPage, openPage, useBrowser, useServer } from "../support/browser.ts";
-import { kRoot, native } from "../support/native.ts";
+import { native } from "../support/native.ts";
 import type { SceneFiles } from "../../src/play/protocol.ts";
 import { edited, library, withFiles } from "../support/play.ts";
 
@@ -19,12 +19,27 @@ const kRounds = 5;
 
 /** The octopus of the gallery with more layers: 1,176 pentachora each. */
 function octopus(layers: number) {
-    const base = readMesh(readFileSync(join(kRoot, "web/gallery/octopus.pent")), "octopus.pent");
-    const heights = Array.from({ length: layers + 1 }, (_, i) => -0.4 + (0.8 * i) / layers);
-    const mesh = extrude(base, heights);
+    const scene = galleryFiles("octopus");
+    const file = Buffer.from(scene.get("octopus.pent")!);
+    const [head, end] = [file.toString("latin1"), "end_header\n"];
+    const header = head.slice(0, head.indexOf(end) + end.length - 1).split("\n");
+    const kRow = 16 * 8 + 1; // bytes of a layer: matrix, offset, reversed
+    const [, old] = /element layer (\d+)/.exec(head)!;
+    const rows = Array.from({ length: layers + 1 }, (_, i) => {
+        const row = Buffer.from(file.subarray(file.length - kRow));
+        row.writeDoubleLE(-0.4 + (0.8 * i) / layers, kRow - 9); // w
+        return row;
+    });
+    const base = file.subarray(header.join("\n").length + 1, file.length - kRow * Number(old));
+    const body = Buffer.concat([base, ...rows]);
+    const lines = header
+        .filter((line) => !line.startsWith("comment header_crc32c"))
+        .map((line) => line.replace(/^comment crc32c .*/, `comment crc32c ${hex8(crc32c(body))}`))
+        .map((line) => line.replace(/^element layer .*/, `element layer ${rows.length}`));
+    const made = joinFile(lines, body);
     return {
-        cells: mesh.cellCount,
-        files: new Map(galleryFiles("octopus")).set("octopus.pent", writeMesh(mesh)),
+        cells: readMesh(made, "octopus.pent").cellCount,
+        files: new Map(scene).set("octopus.pent", made),
     };
 }
 

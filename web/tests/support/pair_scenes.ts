@@ -3,7 +3,7 @@ import { readFileSync } from "node:fs";
 import { join } from "node:path";
 import { writeMesh } from "../../src/format/write_pent.ts";
 import type { SceneFiles } from "../../src/play/protocol.ts";
-import { gridMesh } from "../../src/run/example.ts";
+import { gridMesh } from "../../src/mesh/grid.ts";
 import { native } from "./native.ts";
 import { withFiles } from "./play.ts";
 

@@ -144,10 +144,10 @@ function readSlice(path: string): Seen[] {
     const bytes = readFileSync(path);
     const end = bytes.indexOf("end_header\n") + "end_header\n".length;
     const count = Number(/element vertex (\d+)/.exec(bytes.toString("latin1", 0, end))![1]);
-    const kRow = 3 * 8 + 4 + 3;
+    const kRow = 3 * 8 + 8 + 3;
     return Array.from({ length: count }, (_, i) => ({
         place: [0, 8, 16].map((at) => bytes.readDoubleLE(end + kRow * i + at)),
-        value: bytes.readFloatLE(end + kRow * i + 24),
+        value: bytes.readDoubleLE(end + kRow * i + 24),
     }));
 }
 

@@ -9,7 +9,7 @@ import { parseHeader } from "../../src/format/header.ts";
 import { determinant } from "../../src/format/mesh.ts";
 import { readFrame, readMesh } from "../../src/format/pent_file.ts";
 import { makeBoundary } from "../../src/mesh/boundary.ts";
-import { gridMesh } from "../../src/run/example.ts";
+import { gridMesh } from "../../src/mesh/grid.ts";
 import { damage } from "../support/damage.ts";
 import { messageOf } from "../support/message.ts";
 import { kRoot, native, randomFrom } from "../support/native.ts";

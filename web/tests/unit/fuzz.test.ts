@@ -8,7 +8,7 @@ import { readFrame, readMesh } from "../../src/format/pent_file.ts";
 import { makeBoundary } from "../../src/mesh/boundary.ts";
 import { Decoder, ModelDecoder } from "../../src/run/decode.ts";
 import { EmbeddedRun } from "../../src/run/embedded.ts";
-import { gridMesh } from "../../src/run/example.ts";
+import { gridMesh } from "../../src/mesh/grid.ts";
 import { listPaths } from "../../src/run/listing.ts";
 import { parseListing } from "../../src/run/sources.ts";
 import { formatState, parseState } from "../../src/view/state.ts";

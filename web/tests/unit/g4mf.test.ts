@@ -11,7 +11,7 @@ import { makeBoundary } from "../../src/mesh/boundary.ts";
 import { matchFacets } from "../../src/mesh/facets.ts";
 import { orientOutward } from "../../src/mesh/orient.ts";
 import { ModelDecoder } from "../../src/run/decode.ts";
-import { gridMesh } from "../../src/run/example.ts";
+import { gridMesh } from "../../src/mesh/grid.ts";
 import { damage } from "../support/damage.ts";
 import { messageOf } from "../support/message.ts";
 import { kRoot, native, randomFrom } from "../support/native.ts";

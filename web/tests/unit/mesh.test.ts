@@ -4,7 +4,7 @@ import { determinant } from "../../src/format/mesh.ts";
 import type { Mesh } from "../../src/format/mesh.ts";
 import { makeBoundary } from "../../src/mesh/boundary.ts";
 import { makeRestCells, strains, toFloat4 } from "../../src/mesh/quantities.ts";
-import { gridMesh } from "../../src/run/example.ts";
+import { gridMesh } from "../../src/mesh/grid.ts";
 import { fromTurns } from "../../src/view/rotation.ts";
 
 const kGrid = gridMesh([2, 1, 1, 2], (p) => p);

@@ -7,8 +7,7 @@ import { test } from "node:test";
 import { readObstacles } from "../../src/format/obstacles.ts";
 import type { Obstacle } from "../../src/format/obstacles.ts";
 import { makeBoundary } from "../../src/mesh/boundary.ts";
-import { boxMesh } from "../../src/mesh/box.ts";
-import { gridMesh } from "../../src/run/example.ts";
+import { gridMesh } from "../../src/mesh/grid.ts";
 import { add, cross, dot, scale } from "../../src/view/matrix.ts";
 import type { Vector } from "../../src/view/matrix.ts";
 import { Boxes } from "../../src/view/boxes.ts";
@@ -188,7 +187,9 @@ test("the outline of a ball is that of its image on the film", () => {
 
 test("a box is a closed body of the box's volume", () => {
     for (const dimension of [3, 4] as const) {
-        const mesh = boxMesh(dimension);
+        const mesh = gridMesh(dimension === 3 ? [1, 1, 1] : [1, 1, 1, 1], (p) =>
+            p.map((x) => x / 2),
+        );
         assert.equal(mesh.cellCount, dimension === 3 ? 6 : 24);
         const { facetCount, facets } = makeBoundary(mesh, "box");
         assert.equal(facetCount, dimension === 3 ? 12 : 48);

@@ -1,10 +1,11 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 import { makeBoundary } from "../../src/mesh/boundary.ts";
-import { extrude } from "../../src/mesh/extrude.ts";
 import type { Obstacle } from "../../src/format/obstacles.ts";
 import { determinant } from "../../src/format/mesh.ts";
 import type { Mesh } from "../../src/format/mesh.ts";
+import { readMesh } from "../../src/format/pent_file.ts";
+import { galleryFiles } from "../../src/play/gallery.ts";
 import { roomFor } from "../../src/play/live_run.ts";
 import { Pace, kRates } from "../../src/play/pace.ts";
 import { sceneAmong } from "../../src/play/scene_files.ts";
@@ -98,16 +99,6 @@ test("an archive has every file, by its name, with its checksum", async () => {
     assert.deepEqual(unzip(new Uint8Array(await blob.arrayBuffer())), files);
 });
 
-const kTwoTets: Mesh = {
-    dimension: 3,
-    vertexCount: 5,
-    cellCount: 2,
-    positions: Float64Array.of(0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 1, 1, 1),
-    cells: Uint32Array.of(0, 1, 2, 3, 2, 1, 4, 3),
-    crc: 0,
-    createdBy: "",
-};
-
 function volume(mesh: Mesh): number {
     const n = mesh.dimension;
     let sum = 0;
@@ -125,12 +116,21 @@ function volume(mesh: Mesh): number {
     return sum / [1, 1, 2, 6, 24][n]!;
 }
 
-test("an extruded mesh has the volume of its base times its height, and fits together", () => {
-    const mesh = extrude(kTwoTets, [-0.5, 0, 1]);
-    assert.equal(mesh.cellCount, 2 * 2 * 4);
-    assert.ok(Math.abs(volume(mesh) - 1.5 * volume(kTwoTets)) < 1e-12); // sums of ten numbers near 1
-    // Each of the 6 outer triangles becomes a prism of 3 tetrahedra a layer; 2 tetrahedra at either end.
-    assert.equal(makeBoundary(mesh, "mesh").facetCount, 6 * 3 * 2 + 4);
+test("the octopus of the gallery has the volume of its base times its height, and fits together", () => {
+    const mesh = readMesh(galleryFiles("octopus").get("octopus.pent")!, "octopus.pent");
+    const { facets, facetCount } = makeBoundary(mesh, "octopus.pent"); // throws where it does not fit
+    const isBelow = (v: number) => mesh.positions[4 * v + 3] === -0.4;
+    const base = Array.from({ length: facetCount }, (_, f) => [
+        ...facets.subarray(4 * f, 4 * f + 4),
+    ]).filter((facet) => facet.every(isBelow));
+    assert.equal(mesh.cellCount, base.length * 3 * 4); // layers of prisms
+    const area = base.reduce((sum, [a, ...others]) => {
+        const edges = others.flatMap((v) =>
+            [0, 1, 2].map((axis) => mesh.positions[4 * v + axis]! - mesh.positions[4 * a! + axis]!),
+        );
+        return sum + Math.abs(determinant(edges, 3)) / 6;
+    }, 0);
+    assert.ok(Math.abs(volume(mesh) - 0.8 * area) < 1e-12); // sums of thousands of numbers near 1e-3
 });
 
 const bounds = new Bounds();

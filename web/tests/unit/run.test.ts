@@ -1,6 +1,7 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { gridMesh, ExampleRun, kExamples } from "../../src/run/example.ts";
+import { gridMesh } from "../../src/mesh/grid.ts";
+import { ExampleRun, kExamples } from "../../src/run/example.ts";
 import { ByteCache } from "../../src/run/byte_cache.ts";
 import { Decoder } from "../../src/run/decode.ts";
 import { commonFrames, framePath, listPaths } from "../../src/run/listing.ts";
@@ -270,8 +271,17 @@ test("a frame that fails is said once and does not hold the others up", async ()
     stream.want(1, 0, false);
     await new Promise((resolve) => setTimeout(resolve));
     assert.equal(stream.failure(1)!.message, "damaged");
+    stream.want(1, 0, false);
+    await new Promise((resolve) => setTimeout(resolve));
+    assert.equal(stream.failure(1)!.message, "damaged");
     stream.want(2, 0, false);
     assert.deepEqual(run.asked, [2]);
+    await run.bring(2);
+    run.load = load; // the network is there again
+    stream.want(1, 1, false);
+    await run.bring(1);
+    assert.equal(stream.failure(1), undefined);
+    assert.equal(stream.get(1)!.frame, 1);
 });
 
 test("every example makes frames that fit its body", async () => {

@@ -4,8 +4,9 @@ import { Bounds } from "../../src/view/bounds.ts";
 import { tesseract } from "../../src/view/box.ts";
 import { makeCamera } from "../../src/view/camera.ts";
 import { bodyColor, mapColor, suitableRange } from "../../src/view/colors.ts";
-import { columnsFor, slicePlaces } from "../../src/view/compose.ts";
+import { columnsFor, makeColoring, makePicture, slicePlaces } from "../../src/view/compose.ts";
 import { transform } from "../../src/view/matrix.ts";
+import { project } from "../../src/view/pointing.ts";
 import {
     apply,
     applyTurn,
@@ -203,6 +204,49 @@ test("a tesseract has 32 edges, and its slice through the middle is a cube", () 
         .filter((length) => length > 1e-9);
     assert.equal(edges.length, 12);
     assert.ok(edges.every((length) => Math.abs(length - Math.SQRT2 * 2) < 1e-9));
+});
+
+test("the box about the bodies is in the picture where it is asked for, whatever the bodies are", () => {
+    const bodies = [
+        [1, 1, 1, 1, -1, -1, -1, -1],
+        // A ball, which the box about it is much larger than.
+        [0, 1, 2, 3].flatMap((axis) =>
+            [1, -1].flatMap((x) => [0, 1, 2, 3].map((k) => (k === axis ? x : 0))),
+        ),
+        [3, 0, 0, 0.1, 0, 0.2, 0.1, 0, 1, 0, 0.3, 0.1],
+    ];
+    for (const positions of bodies) {
+        const body = { positions: Float32Array.from(positions), quantities: new Map() };
+        const moment = { frame: 0, time: 0, bodies: [body], obstacles: [] };
+        const bounds = new Bounds();
+        bounds.add([moment]);
+        bounds.settle([moment]);
+        for (const [width, height] of [
+            [400, 300],
+            [320, 640],
+        ] as const) {
+            const picture = makePicture(
+                { ...defaultState(), box: true },
+                {
+                    width,
+                    height,
+                    pixelRatio: 1,
+                    theme: "light",
+                    dimension: 4,
+                    bounds,
+                    coloring: makeColoring(defaultState(), [0, 1], 1),
+                    obstacles: [],
+                    reach: null,
+                },
+            );
+            const ends = picture.tiles[0]!.lines.flatMap(({ a, b }) => [a, b]);
+            assert.ok(ends.length > 0);
+            for (const end of ends) {
+                const [x, y] = project(picture, end);
+                assert.ok(x > 0 && x < 1 && y > 0 && y < 1, `${end} at ${x} ${y}`);
+            }
+        }
+    }
 });
 
 test("slices lie about w, evenly", () => {

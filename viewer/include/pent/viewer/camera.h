@@ -37,6 +37,9 @@ public:
     /// @param points  3 x n, m.
     void add(const Positions<3>& points);
 
+    /// The points of another one, of the same aspect, view and legend.
+    void add(const CameraFit& other);
+
     /// The camera; for no point, or a single one, one that looks at it from a meter or so,
     /// from farther where coordinates are so large that a meter is nothing to them.
     [[nodiscard]] Camera camera() const;

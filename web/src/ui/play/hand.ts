@@ -25,12 +25,18 @@ type Ask = <Name extends keyof PlayCalls>(
     ...values: Parameters<PlayCalls[Name]>
 ) => Promise<ReturnType<PlayCalls[Name]> | undefined>;
 
+// Places all over the picture, the middle first.
+const kFromMiddle: Place[] = Array.from({ length: 81 }, (_, i) => ({
+    x: 0.1 + 0.1 * (i % 9),
+    y: 0.1 + 0.1 * Math.floor(i / 9),
+})).sort((a, b) => Math.hypot(a.x - 0.5, a.y - 0.5) - Math.hypot(b.x - 0.5, b.y - 0.5));
 const kWPerHeight = 1; // the reach of the bodies along w for a drag over the whole height
 
 /** The hand with which a point of the slice is held and pulled: along the picture by the pointer, along w by the
  * wheel or an upright drag. */
 export class Hand {
     private held: Held | null = null;
+    private isByKeys = false;
     private last: Place = { x: 0, y: 0 };
     private line = svg("line", { class: "rope" });
     private point = svg("circle", { r: 5, class: "grip" });
@@ -55,6 +61,11 @@ export class Hand {
         this.drawing.toggleAttribute("hidden", true);
     }
 
+    /** Whether keys took hold, and pull: while a pointer holds something, arrows mean what they always do. */
+    get isHeldByKeys(): boolean {
+        return this.isHolding && this.isByKeys;
+    }
+
     get isHolding(): boolean {
         return this.held !== null;
     }
@@ -63,6 +74,7 @@ export class Hand {
      *
      * @return  Whether something is. */
     async take(place: Place): Promise<boolean> {
+        this.isByKeys = false;
         const picture = this.picture();
         const sight = sightAt(picture, place.x, place.y);
         const is4 = this.scene.dimension === 4;
@@ -90,6 +102,24 @@ export class Hand {
         this.last = place;
         this.show(this.viewer.moment!);
         return true;
+    }
+
+    /** Takes hold of what is nearest to the middle of the picture, for those who have no pointer.
+     *
+     * @return  Whether something is there. */
+    async takeNearMiddle(): Promise<boolean> {
+        for (const place of kFromMiddle) {
+            if (await this.take(place)) {
+                this.isByKeys = true;
+                return true;
+            }
+        }
+        return false;
+    }
+
+    /** Pulls along the picture, by parts of its width and height. */
+    nudge(right: number, up: number): void {
+        this.drag({ x: this.last.x + right, y: this.last.y - up }, false);
     }
 
     /** The pointer has moved.

@@ -23,6 +23,15 @@ import { PlayPanel } from "./play_panel.ts";
 
 const kTuneDelay = 150; // ms after the last change of a slider: a change sets the simulation up anew
 
+// Keys with which what is held is pulled: right, and up.
+const kWays: Record<string, readonly [number, number]> = {
+    ArrowLeft: [-1, 0],
+    ArrowRight: [1, 0],
+    ArrowUp: [0, 1],
+    ArrowDown: [0, -1],
+};
+const kPullPart = 0.03; // of the picture, of the reach along w
+
 /** What of the page a playground takes part in. */
 export interface PlayHost {
     viewer: Viewer;
@@ -75,8 +84,8 @@ export class PlayPage {
         });
         // Nobody looks: it stands still.
         document.addEventListener("visibilitychange", () => {
-            if (this.run && this.isRunning) {
-                void this.ask("setRunning", !document.hidden);
+            if (this.isRunning) {
+                this.setRunning(true);
             }
         });
         this.showMode(false);
@@ -113,13 +122,40 @@ export class PlayPage {
         if (!this.isOpen) {
             return false;
         }
+        const way = this.hand?.isHeldByKeys ? kWays[event.code] : undefined;
+        if (way) {
+            this.pull(way, event.shiftKey);
+            return true;
+        }
         const action = {
             Space: () => this.setRunning(!this.isRunning),
             ArrowRight: () => void this.step(),
             Backspace: () => void this.ask("reset"),
+            KeyP: () => !event.repeat && void this.hold(),
+            Escape: () => this.hand?.release(),
         }[event.code];
         action?.();
         return action !== undefined || event.code === "ArrowLeft";
+    }
+
+    // By keys, what the pointer does.
+    private async hold(): Promise<void> {
+        const { hand } = this;
+        if (hand?.isHolding) {
+            hand.release();
+        } else if (await hand?.takeNearMiddle()) {
+            this.host.messages.say("A body is held; arrows pull at it, P lets go");
+        } else {
+            this.host.messages.note("No body is in the picture to pull at");
+        }
+    }
+
+    private pull([right, up]: readonly [number, number], isAlongW: boolean): void {
+        if (isAlongW) {
+            this.hand!.moveW(kPullPart * (up || right));
+        } else {
+            this.hand!.nudge(kPullPart * right, kPullPart * up);
+        }
     }
 
     private async start(
@@ -217,7 +253,7 @@ export class PlayPage {
         this.isRunning = isRunning && this.client !== null;
         this.bar.showRunning(this.isRunning);
         if (this.run && (this.client || isRunning)) {
-            void this.ask("setRunning", isRunning);
+            void this.ask("setRunning", isRunning && !document.hidden);
         }
     }
 
