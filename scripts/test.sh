@@ -140,7 +140,7 @@ case ${1:-} in
         ;;
     "")
         run_preset dev
-        build/dev/bin/scene_fuzz --seconds 60 --seed 1 --jobs "$(nproc)" --found build/scene_fuzz/found
+        build/dev/bin/scene_fuzz --count 100 --seed 1 --jobs "$(nproc)" --found build/scene_fuzz/found
         ;;
     *)
         run_preset dev "$@"
