@@ -32,6 +32,10 @@ template <int Dim>
                                          BodyReport& report,
                                          StageClock& clock);
 
+/// What a report says of a base: vertices, cells, volume and edge.
+template <int Dim>
+void describe_base(const SimplexMesh<Dim>& base, BodyReport& report);
+
 /// Extrudes a base with its quantities, and finishes the body.
 template <int Dim>
 [[nodiscard]] Body<Dim> extrude_and_prove(const SimplexMesh<Dim - 1>& base,

@@ -65,16 +65,21 @@ void leave_out_fields(const SimplexMesh<Dim>& base,
 }  // namespace
 
 template <int Dim>
+void describe_base(const SimplexMesh<Dim>& base, BodyReport& report) {
+    report.base_vertices = base.vertex_count();
+    report.base_cells = base.cell_count();
+    report.base_volume = total_volume(base);
+    report.base_edge = mean_edge<Dim>(base);
+}
+
+template <int Dim>
 Body<Dim> extrude_and_prove(const SimplexMesh<Dim - 1>& base,
                             const MeshExtras<Dim - 1>& fields,
                             const BodyRequest& request,
                             const ExtrusionRequest& extrusion,
                             BodyReport report,
                             StageClock& clock) {
-    report.base_vertices = base.vertex_count();
-    report.base_cells = base.cell_count();
-    report.base_volume = total_volume(base);
-    report.base_edge = mean_edge<Dim - 1>(base);
+    describe_base<Dim - 1>(base, report);
     Layers<Dim> layers = requested_layers<Dim>(
         extrusion, {largest_side<Dim - 1>(base.positions), report.base_volume, report.base_edge});
     report.direction = layers.layers.back().offset - layers.layers.front().offset;
@@ -112,6 +117,8 @@ Body<Dim> extrude_and_prove(const SimplexMesh<Dim - 1>& base,
     return body;
 }
 
+template void describe_base<2>(const SimplexMesh<2>&, BodyReport&);
+template void describe_base<3>(const SimplexMesh<3>&, BodyReport&);
 template Body<3> extrude_and_prove<3>(const SimplexMesh<2>&,
                                       const MeshExtras<2>&,
                                       const BodyRequest&,

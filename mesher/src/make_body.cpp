@@ -34,10 +34,7 @@ Body<3> finish_solid(SimplexMesh<3> mesh,
                      const BodyRequest& request,
                      BodyReport report,
                      StageClock& clock) {
-    report.base_vertices = mesh.vertex_count();
-    report.base_cells = mesh.cell_count();
-    report.base_volume = total_volume(mesh);
-    report.base_edge = mean_edge<3>(mesh);
+    describe_base<3>(mesh, report);
     announce(request, expected_size<3>(static_cast<double>(report.base_cells), 1, 0, request));
     OntoSurface<3> onto;
     if (const auto* sphere = std::get_if<SphereShape>(&request.input)) {
