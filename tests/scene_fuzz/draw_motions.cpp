@@ -1,5 +1,6 @@
 #include "draw_motions.h"
 
+#include <cmath>
 #include <string>
 
 namespace pent::scene_fuzz {
@@ -94,13 +95,16 @@ Json motion_velocity(Random& random, const Plan& plan) {
 
 }  // namespace
 
-// A moment in the first half of a run, and one behind it.
+// A moment in the first half of a run, and one behind it; now and then where a step ends, or next
+// to it, as times are rounded.
 Json early(Random& random, const Plan& plan) {
-    return Random::short_of(random.number(0, 0.5) * plan.duration());
+    const double time = Random::short_of(random.number(0, 0.5) * plan.duration());
+    return random.chance(0.4) ? std::floor(time / plan.dt()) * plan.dt() : time;
 }
 
 Json late(Random& random, const Plan& plan) {
-    return Random::short_of(random.number(0.6, 1.2) * plan.duration());
+    const double time = Random::short_of(random.number(0.6, 1.2) * plan.duration());
+    return random.chance(0.4) ? std::ceil(time / plan.dt()) * plan.dt() : time;
 }
 
 const Keys kMotion = {

@@ -8,7 +8,6 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
-#include <numeric>
 #include <string>
 
 namespace pent::scene_fuzz {
@@ -45,15 +44,6 @@ bool are_same(const Snapshot<Dim>& a, const Snapshot<Dim>& b) {
            && a.steps == b.steps && a.contact_stiffness == b.contact_stiffness
            && are_same<Dim>(a.hold_places, b.hold_places) && a.broken_springs == b.broken_springs
            && are_same(a.host, b.host);
-}
-
-// The same for a scene that is shrunk elsewhere than at its first mesh.
-std::uint64_t seed_of(const Scene& scene) {
-    const std::string mesh = scene.bodies.front().mesh;
-    return std::accumulate(mesh.begin() + static_cast<std::ptrdiff_t>(mesh.rfind('/') + 1),
-                           mesh.end(), std::uint64_t{1}, [](std::uint64_t seed, char letter) {
-                               return 31 * seed + static_cast<unsigned char>(letter);
-                           });
 }
 
 // A host that does the same to two simulations, of one thread and of three. Now and then the second

@@ -3,7 +3,10 @@
 #include <pent/pent_file.h>
 #include <pent/simulator/simulation.h>
 
+#include <cstdint>
 #include <limits>
+#include <numeric>
+#include <string>
 #include <vector>
 
 // What several laws of physics need of a scene.
@@ -29,6 +32,15 @@ inline int step_count(const Scene& scene) {
     return scene.frames * scene.steps_per_frame;
 }
 
+// The same for a scene that is shrunk elsewhere than at its first mesh.
+inline std::uint64_t seed_of(const Scene& scene) {
+    const std::string mesh = scene.bodies.front().mesh;
+    return std::accumulate(mesh.begin() + static_cast<std::ptrdiff_t>(mesh.rfind('/') + 1),
+                           mesh.end(), std::uint64_t{1}, [](std::uint64_t seed, char letter) {
+                               return 31 * seed + static_cast<unsigned char>(letter);
+                           });
+}
+
 // All bodies in one: what `part` gives of each.
 template <int Dim, typename Part>
 Positions<Dim> of_all(const Simulation<Dim>& simulation, const Part& part) {
@@ -39,6 +51,12 @@ Positions<Dim> of_all(const Simulation<Dim>& simulation, const Part& part) {
         all.rightCols(of_body.cols()) = of_body;
     }
     return all;
+}
+
+template <int Dim>
+Positions<Dim> contact_forces_of(const Simulation<Dim>& simulation) {
+    return of_all(simulation,
+                  [&](int body) -> Positions<Dim> { return simulation.contact_forces(body); });
 }
 
 template <int Dim>

@@ -277,6 +277,7 @@ constexpr Law kLaws[] = {
     {"explain",   is_explained},
     {"momentum",  physics<check_momentum>},
     {"reaction",  physics<check_reaction>},
+    {"frame",     physics<check_frame>},
     {"crossing",  physics<check_crossings>},
     {"sleep",     physics<check_sleep>},
     {"host",      physics<check_host>},

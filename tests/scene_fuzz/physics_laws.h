@@ -16,8 +16,13 @@ public:
 /// but for what the reports of the steps say is left unsolved.
 void check_momentum(const simulator::Scene& scene);
 
-/// Without obstacles the forces of contact add up to nothing.
+/// Without obstacles the forces of contact add up to nothing, and without friction, which pulls at
+/// two points a distance apart, their moments too.
 void check_reaction(const simulator::Scene& scene);
+
+/// Bodies that are turned, mirrored, elsewhere, in another order and with other numbers of their
+/// vertices have the energies that they had, and the same forces of contact, turned as they are.
+void check_frame(const simulator::Scene& scene);
 
 /// With a barrier nothing crosses, at no step and on no way between: found by trying every pair.
 void check_crossings(const simulator::Scene& scene);

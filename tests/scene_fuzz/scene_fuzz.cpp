@@ -27,7 +27,7 @@ namespace fs = std::filesystem;
 using Clock = std::chrono::steady_clock;
 
 constexpr const char* kUsage =
-    "scene_fuzz [--seconds S] [--count N] [--seed FIRST] [--jobs N] [--found FOLDER]\n"
+    "scene_fuzz [--seconds S] [--count N] [--seed FIRST] [--jobs N] [--found FOLDER] [--law NAME]\n"
     "scene_fuzz --scene FILE [--law NAME]     checks one scene\n"
     "scene_fuzz --print SEED                  prints the scene of a seed\n";
 
@@ -174,7 +174,7 @@ Tally run_job(const Options& options, std::uint64_t job) {
     for (std::uint64_t i = job; !is_over(i); i += options.jobs) {
         const std::uint64_t seed = options.seed + i;
         const Json scene = draw_scene(seed);
-        const Checked checked = check_in_memory(scene, "");
+        const Checked checked = check_in_memory(scene, options.law);
         count(tally, checked);
         if (!checked.finding) {
             continue;
