@@ -16,6 +16,9 @@ namespace {
 // Stops the advances where the gap does not.
 constexpr int kMaxAdvances = 10'000;
 
+// Of distances, with room to spare.
+constexpr double kRounding = 1e-9;
+
 // How long the two simplices stay `target` apart along u; 0 if they are not. Every two corners are
 // on their sides for as long as that, so the hulls of the corners are too: also those that move
 // apart, which rounding in u may have on the wrong sides where the gap is small.
@@ -71,6 +74,14 @@ double safe_fraction(const Corners<Dim, K>& first,
     // Paths that keep apart by what has to be left of any gap need no closest points.
     const double always = clearance.separation + kGapKept * clearance.distance;
     if (are_paths_apart<Dim, K, L>(a, a + first_path, b, b + second_path, always * always)) {
+        return limit;
+    }
+    // Nor do those that as far as the limit keep apart by more than what a motion may be stopped
+    // at: of long motions that something stops early most.
+    const double felt = (clearance.separation + kGapReached * clearance.distance) * (1 + kRounding);
+    if (limit < 1
+        && are_paths_apart<Dim, K, L>(a, a + limit * first_path, b, b + limit * second_path,
+                                      felt * felt)) {
         return limit;
     }
     double near_gap = 0;  // what counts of the gap at the start

@@ -190,6 +190,34 @@ TYPED_TEST(CcdTest, TakesNoMoreThanTheLimit) {
               0.1);
 }
 
+// A limit spares work and changes nothing below it: long ways, most of which end early, of pairs
+// whose boxes stay apart as far as the limit, and of others.
+TYPED_TEST(CcdTest, IsTheSameForAnyLimitUpToIt) {
+    constexpr int kDim = TypeParam::value;
+    int stopped = 0;
+    const auto expect_same = [&]<int K, int L>() {
+        const Corners<kDim, K> a = this->template corners<K>(0.3);
+        const Corners<kDim, L> b = this->template corners<L>();
+        const Corners<kDim, K> va = this->template corners<K>(3);
+        const Corners<kDim, L> vb = this->template corners<L>(0.3);
+        for (const double distance : {0.02, 0.3}) {
+            const Clearance clearance{0.01, distance};
+            const double whole = safe_fraction<kDim, K, L>(a, va, b, vb, clearance);
+            stopped += whole > 0 && whole < 1 ? 1 : 0;
+            for (const double part : {0.01, 0.2, 0.6, 0.9 * whole, 1.001 * whole, 1.1 * whole}) {
+                const double limit = std::min(part, 1.0);
+                ASSERT_EQ((safe_fraction<kDim, K, L>(a, va, b, vb, clearance, limit)),
+                          std::min(whole, limit));
+            }
+        }
+    };
+    for (int trial = 0; trial < 3000; ++trial) {
+        expect_same.template operator()<1, kDim>();
+        expect_same.template operator()<2, kDim - 1>();
+    }
+    EXPECT_GT(stopped, 500);
+}
+
 TYPED_TEST(CcdTest, KeepsPointsOutOfObstacles) {
     constexpr int kDim = TypeParam::value;
     const Vector<kDim> up = Vector<kDim>::Unit(1);

@@ -156,7 +156,8 @@ TYPED_TEST(StepLimitTest, LetsNoFacetCutABallOrABoxBetweenItsVertices) {
 
 TYPED_TEST(StepLimitTest, KeepsVerticesOutOfHalfSpaces) {
     constexpr int kDim = TypeParam::value;
-    ContactFinder<kDim> finder(this->cubes_.model({HalfSpace<kDim>{Vector<kDim>::Unit(1), -0.1}}));
+    const HalfSpace<kDim> floor{Vector<kDim>::Unit(1), -0.1};
+    ContactFinder<kDim> finder(this->cubes_.model({floor, floor}));  // the first of equals is named
     const Positions<kDim>& x = this->cubes_.scene.positions;
     Positions<kDim> to = x;
     to.row(1).array() -= 1;

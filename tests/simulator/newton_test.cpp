@@ -433,6 +433,45 @@ TEST(Newton, EndsWhereTheWayLeadsFartherThanItsBoundAndAcceptsNothingBeyond) {
     EXPECT_GT(run(kInfinity).second, 1000);
 }
 
+// Whatever little is left of each: a third in a row ends it, before a way is asked for.
+TEST(Newton, EndsWhereCorrectionAfterCorrectionIsFartherThanItsBoundHoweverShortTheyAreCut) {
+    struct Blocked : PlainFunction {
+        std::vector<double> lengths;  // of corrections, one after the other
+        std::size_t corrections = 0;
+        int ways = 0;
+        Blocked() {
+            value = [](const Eigen::VectorXd& x) { return -x[0]; };
+            gradient = [](const Eigen::VectorXd& x) { return Eigen::VectorXd(-x.Unit(3, 0)); };
+        }
+        NewtonDirection<3> solve(const Positions<3>& /*gradient*/,
+                                 const Positions<3>& /*displacement*/,
+                                 double /*tolerance*/) override {
+            return {point(lengths[corrections++ % lengths.size()], 0, 0), ""};
+        }
+        double max_step(const Positions<3>& from, const Positions<3>& to) override {
+            ++ways;
+            return 1 / std::max(1.0, (to - from).norm());
+        }
+    };
+    const auto run = [](const std::vector<double>& lengths, int max_astray) {
+        Blocked f;
+        f.lengths = lengths;
+        Positions<3> x = point(0, 0, 0);
+        const NewtonReport report =
+            newton<3>(f, {.bound = 1000, .max_astray = max_astray, .max_iterations = 60}, x);
+        EXPECT_FALSE(report.has_converged);
+        EXPECT_EQ(report.failure_reason, report.iterations < 60
+                                             ? "the motion grew beyond all bounds"
+                                             : "Newton's method did not reach its tolerance");
+        EXPECT_EQ(x(0, 0), f.ways);
+        return f.ways;
+    };
+    EXPECT_EQ(run({1024, 0x1p30, 1, 1024, 0x1p30, 0x1p30}, 3), 5);
+    EXPECT_EQ(run({1024, 1024, 512}, 3), 60);
+    EXPECT_EQ(run({0x1p30}, 3), 2);
+    EXPECT_EQ(run({0x1p30}, 0), 60);
+}
+
 // What a damped step asks for: as many iterations as it allows, each below the one before.
 TEST(Newton, MayStopShortOfItsTolerance) {
     PlainFunction valley(rosenbrock());

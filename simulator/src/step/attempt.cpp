@@ -30,6 +30,11 @@ constexpr double kSettled = 20;
 // rounding.
 constexpr double kMaxExtents = 1e3;
 
+// With a barrier, Newton's method comes back from a correction that goes as far, of a state far
+// from rest, but not from so many in a row: what is in the way cuts each of them to less than what
+// comes next, and each is a search among all there is.
+constexpr int kMaxAstray = 3;
+
 // Dirichlet vertices have arrived when they are this part of the scene's extent from their place.
 constexpr double kArrived = 1e-14;
 
@@ -190,6 +195,7 @@ NewtonReport Simulation<Dim>::Stepper::minimize_bounded(const StepProblem<Dim>& 
                                            tolerance * std::min(scene_.contact->distance, extent_)),
                 .settled = kSettled,
                 .bound = kMaxExtents * extent_,
+                .max_astray = kMaxAstray,
                 .arrival = kArrived * extent_,
                 .max_iterations = kMaxBoundedIterations,
                 .extends_steps = true},

@@ -105,6 +105,11 @@ private:
         if (!is_pending_ && correction < options_.min_correction) {
             return finish(0);
         }
+        // However short what is in the way cuts them.
+        astray_ = correction < options_.bound ? 0 : astray_ + 1;
+        if (options_.max_astray > 0 && astray_ == options_.max_astray) {
+            return fail("the motion grew beyond all bounds");
+        }
         const double limit = function_.max_step(x_, x_ + direction.step);
         const double value_before = at_.value;
         const std::optional<double> factor = search(direction.step, limit);
@@ -288,6 +293,7 @@ private:
     Positions<Dim> displacement_;  // of prescribed points, to their places
     bool is_pending_ = false;      // whether they are still on their way
     int blocked_steps_ = 0;        // steps in a row that hardly moved them
+    int astray_ = 0;               // corrections in a row that go beyond the bound
     NewtonStart first_;
     Positions<Dim> best_;
     GradientNorms best_norms_;  // there; empty until there is one

@@ -22,6 +22,8 @@ struct NewtonOptions {
     double bound =
         std::numeric_limits<double>::infinity();  ///< A coordinate that goes farther than
                                                   ///< that from the start is a failure.
+    int max_astray = 0;  ///< So many corrections in a row that go farther than that are one, too; 0
+                         ///< for no such rule.
     double arrival = 0;  ///< How near to its place a prescribed point has arrived.
     int max_iterations = 150;
     bool may_stop_short = false;  ///< Whether to have taken that many, or to find no decrease
