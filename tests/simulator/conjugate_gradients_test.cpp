@@ -199,8 +199,9 @@ double left_after(const Problem& problem,
         .report.residual;
 }
 
-// At the first iteration from which the mean rate so far needs more than as many again, and not
-// where the rest is shorter: all from runs that were cut off there.
+// At the first iteration from which more are left than anything else takes, at the rate of the last
+// half as many, and so many times more before as many have been made: all from runs that were cut
+// off there.
 TEST(ConjugateGradients, EndWhereAnythingElseWouldTakeLess) {
     const Problem problem;
     const BlockMatrix<4, double> A = definite_matrix<double>(problem.box, 0.01);
@@ -219,9 +220,12 @@ TEST(ConjugateGradients, EndWhereAnythingElseWouldTakeLess) {
             });
         EXPECT_EQ(asked, 1);
         const auto is_over_at = [&](int spent) {
+            const int last = std::min(spent, static_cast<int>(std::max(4.0, worth / 2)));
             const double left = left_after(problem, A, *preconditioner, spent);
-            return spent >= std::max(worth, 8.0)
-                   && std::log(left / 0.95e-10) > worth * -std::log(left) / spent;
+            const double before = left_after(problem, A, *preconditioner, spent - last);
+            const double falls_by = std::pow(left / before, 1.0 / last);  // in one iteration
+            return spent >= 8
+                   && left * std::pow(falls_by, worth * std::max(1.0, worth / spent)) > 0.95e-10;
         };
         int expected = 1;
         while (expected < whole.report.iterations && !is_over_at(expected)) {

@@ -3,6 +3,8 @@
 #include "springy_box.h"
 #include "support/messages.h"
 
+#include <pent/formatted.h>
+
 #include <gtest/gtest.h>
 
 #include <limits>
@@ -51,8 +53,12 @@ TEST(DirectSolver, IsRefusedWhereItTakesMoreMemoryThanThereIs) {
     EXPECT_GT(bytes_by(kIterative, 1), 0);
     const std::string error =
         pent::test::error_of([&] { static_cast<void>(bytes_by(kDirect, factor - 1)); });
+    const auto megabytes = [](std::int64_t bytes) {
+        return formatted("%.3g MB", static_cast<double>(bytes) / 1e6);
+    };
     pent::test::expect_contains(error,
-                                {"\"direct\" needs ", " MB for ", " that there are: use \"cg\""});
+                                {"\"direct\" needs " + megabytes(factor) + " for ",
+                                 ", of " + megabytes(factor - 1) + " that there are: use \"cg\""});
 }
 
 // One body on the other, with contact that couples them, one vertex held, and sleep.

@@ -172,6 +172,52 @@ TYPED_TEST(HeldElements, HaveTheWorkOfTheirActivations) {
     }
 }
 
+// Linear elasticity takes a turn for a strain: energy and forces are those of F = R, by hand.
+TYPED_TEST(HeldElements, AreStrainedByATurnWhereTheyAreLinear) {
+    constexpr int kDim = TypeParam::value;
+    constexpr double kAngle = 0.4;
+    Motion spinning = test::still(kDim);
+    spinning.rotate = {{.plane = {0, kDim - 1}, .degrees_per_s = kAngle * 180 / M_PI}};
+    Motion keyframed = test::still(kDim);
+    MotionKeyframe& end = keyframed.keyframes.emplace_back();
+    end.time = 1;
+    end.translate = Eigen::VectorXd::Zero(kDim);
+    end.rotate = {{.plane = {0, kDim - 1}, .degrees = kAngle * 180 / M_PI}};
+    for (const Motion& motion : {spinning, keyframed}) {
+        for (const ElementKind kind :
+             {ElementKind::Linear, ElementKind::Smoothed, ElementKind::Quadratic}) {
+            Scene scene = test::box_scene<kDim>();
+            scene.solver.elements = kind;
+            scene.frames_per_second = 2;
+            scene.bodies[0].material.model = Model::Linear;
+            scene.constraints = {test::hold(EverythingSelection{}, motion)};
+            Simulation<kDim> simulation(scene, {test::cube_for<kDim>(scene, 2)});
+            std::vector<std::uint32_t> far;
+            for (std::uint32_t vertex = 0; vertex < simulation.masses(0).size(); ++vertex) {
+                if (simulation.positions(0)(0, vertex) > 0.9 * kSide) {
+                    far.push_back(vertex);
+                }
+            }
+            StepReport report = simulation.step();
+            report = simulation.step();
+            ASSERT_TRUE(report.is_accepted) << report.failure;
+            Eigen::MatrixXd F = Eigen::MatrixXd::Identity(kDim, kDim);
+            F(0, 0) = F(kDim - 1, kDim - 1) = std::cos(kAngle);
+            F(kDim - 1, 0) = std::sin(kAngle);
+            F(0, kDim - 1) = -F(kDim - 1, 0);
+            const Material& material = scene.bodies[0].material;
+            const double energy = std::pow(kSide, kDim) * energy_density(material, F);
+            const Eigen::VectorXd force =
+                std::pow(kSide, kDim - 1) * Eigen::MatrixXd(stress(material, F)).col(0);
+            EXPECT_GT(energy, 0);
+            EXPECT_NEAR(report.energies.of("elastic"), energy, 1e-10 * energy);
+            const Positions<kDim> reactions = simulation.vertex_values(VertexQuantity::Reaction, 0);
+            EXPECT_LT((reactions(Eigen::all, far).rowwise().sum() - force).norm(),
+                      1e-10 * force.norm());
+        }
+    }
+}
+
 // They are not even looked at: not the least energy by rounding.
 TYPED_TEST(HeldElements, CostNothingWhereOneGripHasAll) {
     constexpr int kDim = TypeParam::value;

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 #include <utility>
+#include <vector>
 
 namespace pent::simulator {
 
@@ -15,6 +16,7 @@ constexpr Eigen::Index kChunkColumns = 512;
 
 // Iterations before anything else is thought of.
 constexpr int kPatience = 8;
+constexpr double kNever = std::numeric_limits<double>::infinity();
 
 int chunk_count(Eigen::Index columns) {
     return static_cast<int>((columns + kChunkColumns - 1) / kChunkColumns);
@@ -114,6 +116,19 @@ void follow_and_turn(const Workers& workers,
     });
 }
 
+// Whether more iterations are left than another way takes, at the rate of the last ones: half as
+// many as that. Where few have been made they tell less of those to come, and more have to be left.
+//
+// @param left  What was left at the start, and behind each iteration.
+bool is_slow(const std::vector<double>& left, double enough, double worth) {
+    const std::size_t spent = left.size() - 1;
+    const auto last = static_cast<std::size_t>(
+        std::min(static_cast<double>(spent), std::max(0.5 * kPatience, 0.5 * worth)));
+    const double rate = std::log(left[spent - last] / left[spent]) / static_cast<double>(last);
+    const double most = worth * std::max(1.0, worth / static_cast<double>(spent));
+    return std::log(left[spent] / enough) > most * rate;
+}
+
 }  // namespace
 
 template <int Dim>
@@ -205,16 +220,16 @@ void ConjugateGradients<Dim>::iterate(const BlockMatrix<Dim, Scalar>& A,
     LinearSolveReport& report = solution.report;
     const Eigen::Index rows = A.rows();
     p_.setZero();
-    const double before = report.residual;
-    double left = std::numeric_limits<double>::infinity();
+    double left = kNever;
+    std::vector<double> all_left = {report.residual};
     double rz_before = 1;
     double step = 0;  // along p, which x has yet to follow
-    double worth = std::numeric_limits<double>::infinity();
+    double worth = kNever;
     for (int spent = 0; left > enough && report.iterations < options.max_iterations; ++spent) {
         if (spent == kPatience && alternative) {
             worth = alternative();
         }
-        if (spent >= worth && std::log(left / enough) > worth * std::log(before / left) / spent) {
+        if (worth < kNever && is_slow(all_left, enough, worth)) {
             report.is_slow = true;
             break;
         }
@@ -229,6 +244,7 @@ void ConjugateGradients<Dim>::iterate(const BlockMatrix<Dim, Scalar>& A,
         }
         step = rz / curvature;
         left = part_left(advance(*workers_, rows, step, q_, r_));
+        all_left.push_back(left);
         rz_before = rz;
         ++report.iterations;
     }

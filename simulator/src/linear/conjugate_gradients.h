@@ -26,8 +26,9 @@ public:
     /// have been a few.
     using Alternative = std::function<double()>;
 
-    /// @param alternative  Taken where, after that many iterations, as many more would not be
-    ///                     enough at the mean rate so far.
+    /// @param alternative  Taken where that many more would not be enough at the rate of the last
+    ///                     iterations, half that many; before so many have been made, where so many
+    ///                     times more would not be as they are fewer.
     template <typename Scalar>
     [[nodiscard]] LinearSolution<Dim> solve(const BlockMatrix<Dim, Scalar>& A,
                                             const Preconditioner<Dim>& preconditioner,

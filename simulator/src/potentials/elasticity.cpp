@@ -16,6 +16,14 @@ namespace {
 
 constexpr Eigen::Index kChunkCells = 1024;
 
+bool may_turn(const Motion& motion) {
+    return !motion.rotate.empty()
+           || std::any_of(motion.keyframes.begin(), motion.keyframes.end(),
+                          [](const MotionKeyframe& keyframe) {
+                              return !keyframe.rotate.empty() || !keyframe.spin.empty();
+                          });
+}
+
 }  // namespace
 
 template <int Dim>
@@ -56,14 +64,23 @@ ElementLayout<Dim> Elasticity<Dim>::lay_out(const DofMap& dofs, const Grips* gri
     return layout;
 }
 
-// Rigid grips strain nothing, but activations do.
+// Rigid grips strain nothing, but activations do, and in linear elasticity turns.
 template <int Dim>
 void Elasticity<Dim>::lay_out_held(const HeldVertices<Dim>& held) {
-    Grips grips = held.grips();
-    if (!strain_.is_empty()) {
-        std::replace_if(
-            grips.begin(), grips.end(), [](std::int32_t grip) { return grip >= 0; }, kOtherGrip);
+    std::vector<bool> strains;
+    for (const DirichletSet<Dim>& set : held.sets()) {
+        const bool is_linear = std::any_of(
+            bodies_->ranges.begin(), bodies_->ranges.end(), [&](const CellRange& range) {
+                return range.body == set.body && range.material.model == Model::Linear;
+            });
+        const bool turns = std::any_of(set.path.begin(), set.path.end(), may_turn);
+        strains.push_back(!strain_.is_empty() || (is_linear && turns));
     }
+    Grips grips = held.grips();
+    std::replace_if(
+        grips.begin(), grips.end(),
+        [&](std::int32_t grip) { return grip >= 0 && strains[static_cast<std::size_t>(grip)]; },
+        kOtherGrip);
     if (grips == held_.grips) {
         return;
     }
