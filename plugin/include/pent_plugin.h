@@ -12,10 +12,10 @@
  * otherwise. Whatever is refused has changed nothing.
  *
  * Arrays that are given belong to the simulation. Those of its vertices and cells stay where they
- * are and show the state as it is at the time, until bodies or obstacles come or go or it is
- * closed, and beyond that while they are kept (pent_keep()). All others hold until a function that
- * takes it without `const` is called. Arrays that are taken are copied. A simulation that another
- * thread is using at the time is refused; different simulations may be used at once.
+ * are and show the state as it is at the time, until bodies come or go or it is closed, and beyond
+ * that while they are kept (pent_keep()). All others hold until a function that takes it without
+ * `const` is called. Arrays that are taken are copied. A simulation that another thread is using
+ * at the time is refused; different simulations may be used at once.
  *
  * pent_plugin_meshes.h has meshes, frames and scenes without a simulation. */
 

@@ -54,7 +54,7 @@ void Handles<Handle, Thing>::remove(const Handle* handle, const char* what) {
 }
 
 template class Handles<pent_simulation, Opened>;
-template class Handles<pent_state, Saved>;
+template class Handles<pent_state, Offered::Snapshots>;
 template class Handles<pent_kept, Kept>;
 template class Handles<pent_stored_mesh, StoredMesh>;
 template class Handles<pent_stored_frame, StoredFrame>;
@@ -64,8 +64,8 @@ Handles<pent_simulation, Opened>& simulations() {
     return all;
 }
 
-Handles<pent_state, Saved>& states() {
-    static Handles<pent_state, Saved> all;
+Handles<pent_state, Offered::Snapshots>& states() {
+    static Handles<pent_state, Offered::Snapshots> all;
     return all;
 }
 

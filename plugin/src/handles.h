@@ -59,12 +59,6 @@ struct Opened {
     std::mutex in_use;
 };
 
-/// A state, and the time step of its simulation: it counts time in steps, and BDF2 looks back one.
-struct Saved {
-    Offered::Snapshots snapshot;
-    double time_step = 0;  // s
-};
-
 /// Arrays of a simulation that outlive it.
 struct Kept {
     std::shared_ptr<const void> arrays;
@@ -107,7 +101,7 @@ private:
 };
 
 [[nodiscard]] Handles<pent_simulation, Opened>& simulations();
-[[nodiscard]] Handles<pent_state, Saved>& states();
+[[nodiscard]] Handles<pent_state, Offered::Snapshots>& states();
 [[nodiscard]] Handles<pent_kept, Kept>& kept_arrays();
 [[nodiscard]] Handles<pent_stored_mesh, StoredMesh>& meshes();
 [[nodiscard]] Handles<pent_stored_frame, StoredFrame>& frames();

@@ -2,6 +2,7 @@
 
 #include "handles.h"
 
+#include <pent/counted.h>
 #include <pent/machine_memory.h>
 #include <pent/runs/scene_file.h>
 #include <pent/runs/scene_meshes.h>
@@ -36,9 +37,8 @@ std::unique_ptr<Simulation<Dim>> make_simulation(const Scene& scene,
 
 pent_simulation* open(const Scene& scene, const pent_mesh* meshes, int threads) {
     auto opened = std::make_shared<Opened>();
-    const int count = std::max(threads, 1);
     with_dimension(scene.dimension, [&](auto dim) {
-        opened->simulation = make_simulation<dim>(scene, meshes, count);
+        opened->simulation = make_simulation<dim>(scene, meshes, threads);
     });
     return simulations().add(std::move(opened));
 }
@@ -111,8 +111,8 @@ pent_simulation* pent_open_scene(const char* scene,
         const Scene read = runs::parse_scene(scene, name, folder);
         const auto bodies = static_cast<std::int64_t>(read.bodies.size());
         if (mesh_count != bodies) {
-            throw Error("the scene has " + std::to_string(bodies) + " bodies; got "
-                        + std::to_string(mesh_count) + " meshes");
+            throw Error("the scene has " + counted(bodies, "body", "bodies") + "; got "
+                        + counted(mesh_count, "mesh", "meshes"));
         }
         return open(read, meshes, threads);
     });
@@ -147,23 +147,17 @@ int pent_step(pent_simulation* simulation, pent_step_report* report) {
 
 pent_state* pent_save(const pent_simulation* simulation) {
     return with<pent_state*>(simulation, nullptr, [](auto& held, Opened& /*opened*/) {
-        return states().add(std::make_shared<Saved>(Saved{held.save(), held.scene().dt()}));
+        return states().add(std::make_shared<Offered::Snapshots>(held.save()));
     });
 }
 
 int pent_restore(pent_simulation* simulation, const pent_state* state) {
     return with(simulation, -1, [&](auto& held, Opened& /*opened*/) {
         constexpr int kDim = kDimOf<std::remove_reference_t<decltype(held)>>;
-        const std::shared_ptr<Saved> saved = states().find(state, "state");
-        const auto* snapshot = std::get_if<simulator::Snapshot<kDim>>(&saved->snapshot);
+        const std::shared_ptr<Offered::Snapshots> saved = states().find(state, "state");
+        const auto* snapshot = std::get_if<simulator::Snapshot<kDim>>(saved.get());
         if (snapshot == nullptr) {
             throw Error("the state is of a simulation of another dimension");
-        }
-        if (saved->time_step != held.scene().dt()) {
-            throw Error("the state is of a simulation with steps of "
-                        + std::to_string(saved->time_step) + " s; this one has steps of "
-                        + std::to_string(held.scene().dt())
-                        + " s: set positions and velocities instead");
         }
         held.restore(*snapshot);
         return 0;

@@ -25,9 +25,9 @@ class Simulation(Sight):
     in N, energies in J, times in s.
 
     Arrays of vertices and cells are read-only views of the library's own: they show the state as it
-    is when you look, through all steps; `.copy()` keeps what they show now. When bodies or
-    obstacles come or go, or the simulation is closed, a view stays valid and shows what was there
-    last. While another thread steps a view may show some vertices before and some after the step.
+    is when you look, through all steps; `.copy()` keeps what they show now. When bodies come or go,
+    or the simulation is closed, a view stays valid and shows what was there last. While another
+    thread steps a view may show some vertices before and some after the step.
 
     Steps run without the interpreter's lock. A simulation is for one thread at a time, another is
     refused with an Error; different simulations may be used at once. Ctrl-C stops between two

@@ -121,7 +121,7 @@ def test_a_state_goes_on_with_another_stiffness_but_no_other_time_step(
         np.testing.assert_array_equal(two.positions(), one.positions())
         np.testing.assert_array_equal(two.velocities(), one.velocities())
         # The clock of the third would leap, and BDF2 would take a past of longer steps for its own.
-        with pytest.raises(Error, match="of 0.016667 s; this one has steps of 0.006667 s"):
+        with pytest.raises(Error, match="of 0.0166666667 s; this one has steps of 0.00666666667 s"):
             other.restore(one.save())
         assert other.time == 0 and (other.velocities() == 0).all()
         other.set_state(0, one.positions(), one.velocities())

@@ -174,6 +174,16 @@ TEST(PluginMisuse, OfScenesIsRefusedAsByPrograms) {
     expect_refused_as_by_programs<4>();
 }
 
+// As by the library in C++: none is not one.
+TEST(PluginMisuse, OfThreadsIsRefused) {
+    const std::array<pent_mesh, 2> meshes = {closed_c_mesh(test::box<4>()),
+                                             closed_c_mesh(test::box<4>())};
+    for (const int threads : {0, -3}) {
+        EXPECT_EQ(pent_open_text(test::kScene4, meshes.data(), 2, threads), nullptr);
+        expect_error(std::to_string(threads) + " threads, expected at least 1");
+    }
+}
+
 TEST(PluginMisuse, OfMeshesThatDoNotFitIsRefusedWhereBodiesAreAdded) {
     const Host host = test::open4();  // with contact
     const SimplexMesh<4> mesh = test::with_cells_twice(test::box<4>(), {3});
@@ -230,7 +240,8 @@ TEST(PluginMisuse, IsSaidAndChangesNothing) {
         {[&] { return pent_set_targets(host, 0, &vertex, -1, some.data()); }, "-1 vertices"},
         {[&] { return pent_set_targets(host, 0, &vertex, 1000000000, some.data()); }, "has 16"},
         {[&] { return pent_set_targets(host, 0, &far, 1, some.data()); }, "vertex 99 of 16"},
-        {[&] { return pent_set_targets(host, 0, &vertex, 1, nan.data()); }, "finite"},
+        {[&] { return pent_set_targets(host, 0, &vertex, 1, nan.data()); },
+         "targets: found nan for y of vertex 2; expected finite numbers"},
         {[&] { return pent_release(host, 5, &vertex, 1); }, "body 5 of 2"},
         {[&] { return pent_add_grab(host, nullptr); }, "grab is NULL"},
         {[&] { return grab_with([](auto& g) { g.point.weights[0] = 2; }); }, "the sum 2"},

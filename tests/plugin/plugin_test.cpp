@@ -340,7 +340,7 @@ TEST(Plugin, OpensASceneFromMemoryOrSaysWhereItIsWrong) {
     EXPECT_EQ(pent_open_text("[scene]\ngravitty = 3\n", &mesh, 1, 1), nullptr);
     expect_error("scene:2:1: ");
     EXPECT_EQ(pent_open_text("[[body]]\nname = \"a\"\nmesh = \"-\"\n", &mesh, 2, 1), nullptr);
-    expect_error("the scene has 1 bodies; got 2 meshes");
+    expect_error("the scene has 1 body; got 2 meshes");
     const char* selects_nothing =
         "[[body]]\nname = \"a\"\nmesh = \"-\"\n[[constraint]]\n"
         "body = \"a\"\nselect = { layers = { first = 7 } }\n";

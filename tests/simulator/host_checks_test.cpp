@@ -48,10 +48,11 @@ TYPED_TEST(HostChecks, SayWhatIsNotRightAndNothingHasChanged) {
         {[&] {
              simulation.set_targets(0, {0, 1}, one);
          },
-         "targets of 1 vertices"},
-        {[&] { simulation.set_targets(0, {0}, nan); }, "finite numbers"},
+         "targets were given for 1 vertex; expected "},
+        {[&] { simulation.set_targets(0, {0}, nan); },
+         "targets: found nan for x of vertex 0; expected finite numbers"},
         {[&] { simulation.release(3, {0}); }, "body 3 of 1"},
-        {[&] { simulation.set_forces(0, one); }, "forces of 1 vertices"},
+        {[&] { simulation.set_forces(0, one); }, "forces were given for 1 vertex; "},
         {[&] { simulation.set_forces(1, simulation.positions(0)); }, "body 1 of 1"},
         {[&] { simulation.set_gravity(nan.col(0)); }, "gravity must be finite"},
         {[&] { simulation.move_grab(7, one.col(0)); }, "there is no grab 7"},
@@ -80,6 +81,42 @@ TYPED_TEST(HostChecks, SayWhatIsNotRightAndNothingHasChanged) {
     EXPECT_TRUE(!host.gravity && host.grabs.empty() && host.held.empty() && host.next_grab == 1);
 }
 
+// Every number of an array, by the vertex that the host named, whatever its place in the list.
+TYPED_TEST(HostChecks, SayWhichNumberIsNotFinite) {
+    constexpr int kDim = TypeParam::value;
+    Simulation<kDim> simulation(floating_cube<kDim>(), {cube<kDim>(1)});
+    const Positions<kDim> good = simulation.positions(0);
+    const std::vector<std::uint32_t> chosen = {6, 1, 4};
+    const std::string end = "; expected finite numbers";
+    const auto message = [](const auto& call) { return pent::test::error_of(call); };
+    for (int axis = 0; axis < kDim; ++axis) {
+        const std::string of = " for " + std::string(1, "xyzw"[axis]) + " of vertex ";
+        for (std::uint32_t i = 0; i < 3; ++i) {
+            Positions<kDim> targets = good.leftCols(3);
+            targets(axis, i) = INFINITY;
+            EXPECT_EQ(message([&] { simulation.set_targets(0, chosen, targets); }),
+                      "targets: found inf" + of + std::to_string(chosen[i]) + end);
+            Snapshot<kDim> snapshot = simulation.save();
+            snapshot.host.held = {2, 3, 7};
+            snapshot.host.targets = targets;
+            EXPECT_EQ(message([&] { simulation.restore(snapshot); }),
+                      "targets: found inf" + of + std::to_string(snapshot.host.held[i]) + end);
+        }
+        for (std::uint32_t vertex = 0; vertex < good.cols(); ++vertex) {
+            Positions<kDim> wrong = good;
+            wrong(axis, vertex) = -INFINITY;
+            const std::string found = ": found -inf" + of + std::to_string(vertex) + end;
+            EXPECT_EQ(message([&] { simulation.set_forces(0, wrong); }), "forces" + found);
+            EXPECT_EQ(message([&] { simulation.set_state(0, wrong, good); }),
+                      "positions of body 0" + found);
+            EXPECT_EQ(message([&] { simulation.set_state(0, good, wrong); }),
+                      "velocities of body 0" + found);
+        }
+    }
+    EXPECT_EQ(Positions<kDim>(simulation.positions(0)), good);
+    EXPECT_TRUE(simulation.host().held.empty());
+}
+
 TEST(HostStates, ThatNoSimulationHasAreRefused) {
     Simulation<3> simulation(floating_cube<3>(), {cube<3>(1)});
     for (int i = 0; i < 2; ++i) {
@@ -95,13 +132,14 @@ TEST(HostStates, ThatNoSimulationHasAreRefused) {
     const double nan = std::numeric_limits<double>::quiet_NaN();
     pent::test::expect_contains(refused([&](auto& h) { h.gravity = Vector<3>::Constant(nan); }),
                                 {"gravity"});
-    pent::test::expect_contains(refused([&](auto& h) { h.forces.setOnes(3, 2); }), {"forces of 2"});
+    pent::test::expect_contains(refused([&](auto& h) { h.forces.setOnes(3, 2); }),
+                                {"forces were given for 2 vertices"});
     pent::test::expect_contains(refused([&](auto& h) { h.held[1] = 8; }), {"below 8"});
     for (const std::uint32_t second : {0U, 1U}) {  // behind 1
         pent::test::expect_contains(refused([&](auto& h) { h.held[1] = second; }), {"increase"});
     }
     pent::test::expect_contains(refused([&](auto& h) { h.targets.setOnes(3, 1); }),
-                                {"targets of 1"});
+                                {"targets were given for 1 vertex"});
     pent::test::expect_contains(refused([&](auto& h) { h.next_grab = 1; }), {"grab 1"});
     pent::test::expect_contains(refused([&](auto& h) { h.grabs[0].from[2] = nan; }),
                                 {"grab 1", "finite anchors"});

@@ -348,6 +348,100 @@ TYPED_TEST(Edit, WakesWhatLayOnWhatIsRemoved) {
     }
 }
 
+// Whatever comes or goes in the middle: friction with the first obstacle that rubs, obstacles that
+// move, the last that there is. Nothing else is made anew: views stay where they are.
+TYPED_TEST(Edit, GoesOnWithOtherObstaclesAsASceneThatHasThem) {
+    constexpr int kDim = TypeParam::value;
+    for (const ContactModel model : {ContactModel::Penalty, ContactModel::Barrier}) {
+        for (const Integrator integrator : kWithInertia) {
+            Scene scene = tower<kDim>(integrator);
+            if (model == ContactModel::Barrier && integrator == Integrator::LinearEuler) {
+                continue;  // a barrier wants Newton's method
+            }
+            scene.contact->model = model;
+            scene.bodies[0].friction = 0.4;
+            Simulation<kDim> edited = start<kDim>(scene);
+            take_steps(edited, 4);
+            Snapshot<kDim> adapted = edited.save();
+            adapted.contact_stiffness *= 4;  // of a barrier, as after deeper contact; else 0
+            edited.restore(adapted);
+            // It comes up to them meanwhile.
+            const double low = edited.save().positions.row(kDim - 1).minCoeff();
+            Obstacle wall{
+                .shape = HalfSpaceObstacle{.normal = Eigen::VectorXd::Unit(kDim, kDim - 1),
+                                           .offset = low - 0.03},
+                .friction = 0.5};
+            wall.motion.resize(1);
+            wall.motion[0].translate = 0.3 * Eigen::VectorXd::Unit(kDim, kDim - 1);
+            const auto positions = edited.positions(1);
+            const auto forces = edited.forces(1);
+            const auto expect_as_one_of_the_scene = [&](const Snapshot<kDim>& before) {
+                Simulation<kDim> opened = start<kDim>(scene);
+                opened.restore(before);
+                for (int i = 0; i < 4; ++i) {
+                    expect_same(edited, opened);
+                    for (int body = 0; body < edited.body_count(); ++body) {
+                        EXPECT_EQ(edited.forces(body), opened.forces(body)) << body;
+                    }
+                    EXPECT_EQ(edited.energies().total(), opened.energies().total());
+                    take_steps(edited, 1);
+                    take_steps(opened, 1);
+                }
+                EXPECT_EQ(edited.positions(1).data(), positions.data());
+                EXPECT_EQ(edited.forces(1).data(), forces.data());
+                EXPECT_EQ(edited.scene().obstacles.size(), scene.obstacles.size());
+                EXPECT_EQ(edited.obstacles().size(), scene.obstacles.size());
+            };
+            Snapshot<kDim> before = edited.save();
+            edited.add_obstacle(wall);
+            scene.obstacles.push_back(wall);
+            expect_as_one_of_the_scene(before);
+            // What it says of itself opens the same: its meshes are placed already.
+            std::vector<SimplexMesh<kDim>> meshes;
+            for (int body = 0; body < edited.body_count(); ++body) {
+                meshes.push_back(edited.mesh(body));
+            }
+            Simulation<kDim> copy(edited.scene(), meshes);
+            copy.restore(edited.save());
+            take_steps(copy, 1);
+            take_steps(edited, 1);
+            expect_same(edited, copy);
+            while (!scene.obstacles.empty()) {
+                before = edited.save();
+                edited.remove_obstacle(0);
+                scene.obstacles.erase(scene.obstacles.begin());
+                expect_as_one_of_the_scene(before);
+            }
+        }
+    }
+}
+
+// One that was apart from the bodies at the start of the scene and is not now, and the other way
+// round.
+TYPED_TEST(Edit, LooksAtAnAddedObstacleWhereItIsByThen) {
+    constexpr int kDim = TypeParam::value;
+    Scene scene = tower<kDim>();
+    scene.contact->model = ContactModel::Barrier;
+    Simulation<kDim> simulation = start<kDim>(scene);
+    take_steps(simulation, 4);
+    const Snapshot<kDim> before = simulation.save();
+    const Eigen::VectorXd up = Eigen::VectorXd::Unit(kDim, kDim - 1);
+    const double low = before.positions.row(kDim - 1).minCoeff();
+    const auto wall = [&](double offset, double by_now) {
+        Obstacle made{.shape = HalfSpaceObstacle{.normal = up, .offset = offset}};
+        made.motion.resize(1);
+        made.motion[0].translate = by_now / simulation.time() * up;
+        return made;
+    };
+    EXPECT_THROW(simulation.add_obstacle(wall(low - 0.05, 0.1)), CrossingError<kDim>);
+    EXPECT_EQ(simulation.scene().obstacles.size(), 1U);
+    EXPECT_EQ(simulation.obstacles().size(), 1U);
+    EXPECT_EQ(simulation.save().positions, before.positions);
+    simulation.add_obstacle(wall(low + 0.05, -0.1));
+    EXPECT_EQ(simulation.obstacles().size(), 2U);
+    take_steps(simulation, 1);
+}
+
 TYPED_TEST(Edit, WakesWhatAnAddedObstacleTouches) {
     constexpr int kDim = TypeParam::value;
     Scene scene = test::box_scene<kDim>();

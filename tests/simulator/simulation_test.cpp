@@ -2,10 +2,12 @@
 #include "support/messages.h"
 
 #include <pent/error.h>
+#include <pent/formatted.h>
 #include <pent/simulator/simulation.h>
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <utility>
 
@@ -345,6 +347,44 @@ TEST(Restore, RefusesEveryPartThatDoesNotFit) {
     EXPECT_EQ(simulation.save().hold_places, good.hold_places);
     simulation.restore(good);
     EXPECT_TRUE(simulation.step().is_accepted);
+}
+
+// Time is counted in steps, and BDF2 looks back one of them: who goes on by others says so.
+template <int Dim>
+void expect_steps_of_one_length() {
+    Scene scene = box_scene<Dim>();
+    scene.gravity[1] = -9.8;
+    scene.solver.integrator = Integrator::Bdf2;
+    std::array<int, Dim> count{};
+    std::array<double, Dim> sides{};
+    count.fill(1);
+    sides.fill(1);
+    const SimplexMesh<Dim> mesh = pent::test::kuhn_box<Dim>(count, sides);
+    Simulation<Dim> coarse(scene, {mesh});
+    for (int i = 0; i < 3; ++i) {
+        ASSERT_TRUE(coarse.step().is_accepted);
+    }
+    scene.steps_per_frame *= 2;
+    Simulation<Dim> fine(scene, {mesh});
+    Snapshot<Dim> state = coarse.save();
+    pent::test::expect_contains(pent::test::error_of([&] { fine.restore(state); }),
+                                {"steps of " + pent::formatted("%.9g s", coarse.scene().dt()),
+                                 "steps of " + pent::formatted("%.9g s", fine.scene().dt())});
+    EXPECT_EQ(fine.step_count(), 0U);
+    EXPECT_EQ(Positions<Dim>(fine.positions(0)), mesh.positions);
+    state.time_step /= 2;
+    state.steps *= 2;
+    state.previous_positions.resize(Dim, 0);
+    state.previous_velocities.resize(Dim, 0);
+    fine.restore(state);
+    EXPECT_EQ(fine.time(), coarse.time());
+    EXPECT_EQ(Positions<Dim>(fine.positions(0)), Positions<Dim>(coarse.positions(0)));
+    EXPECT_TRUE(fine.step().is_accepted);
+}
+
+TEST(Restore, RefusesAStateOfStepsOfAnotherLength) {
+    expect_steps_of_one_length<3>();
+    expect_steps_of_one_length<4>();
 }
 
 TEST(SetState, RefusesBodiesThatAreNotThere) {

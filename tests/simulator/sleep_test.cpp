@@ -565,6 +565,36 @@ TEST(Restore, RefusesSleepThatDoesNotFitTheScene) {
     EXPECT_ANY_THROW(simulation.restore(snapshot));
 }
 
+// A body that sleeps, and is put back to where it slept before, has the forces of there.
+template <int Dim>
+void expect_forces_of_where_it_sleeps() {
+    const Scene scene = cube_on_floor<Dim>();
+    Scene awake = scene;
+    awake.sleep.reset();
+    Simulation<Dim> simulation(scene, {cube<Dim>(1)});
+    Simulation<Dim> without(awake, {cube<Dim>(1)});
+    Snapshot<Dim> snapshot = simulation.save();
+    const Positions<Dim> rest = snapshot.positions;
+    for (const double stretch : {1.1, 0.9, 1.1}) {
+        snapshot.positions = stretch * rest;
+        snapshot.sleep = {{.is_asleep = true, .quiet_steps = 9}};
+        simulation.restore(snapshot);
+        Snapshot<Dim> other = snapshot;
+        other.sleep = {{}};
+        without.restore(other);
+        EXPECT_GT(without.energies().of("elastic"), 0);
+        // But for the order in which they are added up.
+        const Positions<Dim> forces = without.forces(0);
+        EXPECT_EQ(simulation.energies().of("elastic"), without.energies().of("elastic"));
+        EXPECT_LT((simulation.forces(0) - forces).norm(), 1e-13 * forces.norm()) << stretch;
+    }
+}
+
+TEST(Restore, PutsSleepersToWhereTheySleptWithTheForcesOfThere) {
+    expect_forces_of_where_it_sleeps<3>();
+    expect_forces_of_where_it_sleeps<4>();
+}
+
 // Stiffness of a barrier alone: without one there is none to put back.
 TEST(Restore, RefusesStiffnessThatNoBarrierHas) {
     constexpr double kNone = std::numeric_limits<double>::quiet_NaN();

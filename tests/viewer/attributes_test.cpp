@@ -2,12 +2,14 @@
 
 #include "meshes.h"
 
+#include <pent/geometry.h>
 #include <pent/viewer/coloring.h>
 #include <pent/viewer/slice.h>
 
 #include <Eigen/Geometry>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <set>
@@ -91,6 +93,57 @@ TEST(CornerNormals, OfABoxAreItsSidesInSpiteOfSliversAndZeroAreas) {
             }
         }
     }
+}
+
+// Corner by corner, over all facets of the body: of slices with two triangles in a facet, and of
+// one through vertices, whose corners lie on edges of other facets once they are merged.
+void expect_normals_by_definition(const SimplexMesh<4>& mesh, const FramedHyperplane& plane) {
+    const double crease = 0.7;
+    const Boundary<4> boundary = make_boundary(mesh, "body");
+    Eigen::Matrix<double, 4, Eigen::Dynamic> normals_of_facets(4, boundary.facets.cols());
+    for (Eigen::Index facet = 0; facet < boundary.facets.cols(); ++facet) {
+        Eigen::Matrix4d corners;
+        for (int k = 0; k < 4; ++k) {
+            corners.col(k) = mesh.positions.col(boundary.facets(k, facet));
+        }
+        normals_of_facets.col(facet) = facet_normal<4>(corners);
+    }
+    const auto smooth = [&](std::uint32_t of, std::uint32_t vertex) {
+        const Eigen::Vector4d own = normals_of_facets.col(of).normalized();
+        Eigen::Vector4d sum = Eigen::Vector4d::Zero();
+        for (Eigen::Index facet = 0; facet < boundary.facets.cols(); ++facet) {
+            const Eigen::Vector4d other = normals_of_facets.col(facet);
+            if ((boundary.facets.col(facet).array() == vertex).any()
+                && std::acos(std::min(1.0, own.dot(other.normalized()))) <= crease) {
+                sum += other;
+            }
+        }
+        return Eigen::Vector4d(sum.stableNormalized());
+    };
+    const Surface surface = merge_coincident(slice(boundary, mesh.positions, plane));
+    const Eigen::Matrix<double, 3, 4> axes = plane.frame.topRows<3>();
+    const Positions<3> normals = corner_normals<4>(surface, boundary, mesh.positions, axes, crease);
+    ASSERT_GT(normals.cols(), 0);
+    Eigen::Index compared = 0;
+    for (Eigen::Index i = 0; i < normals.cols(); ++i) {
+        const std::uint32_t v = surface.triangles(i % 3, i / 3);
+        const std::uint32_t facet = surface.facets[static_cast<std::size_t>(i / 3)];
+        const double s = surface.weights[v];
+        const Eigen::Vector3d expected =
+            axes
+            * ((1 - s) * smooth(facet, surface.ends(0, v)) + s * smooth(facet, surface.ends(1, v)));
+        if (normals.col(i).dot(expected) > 0) {  // else that of the triangle
+            EXPECT_LT((normals.col(i) - expected.normalized()).norm(), 1e-12) << i;
+            ++compared;
+        }
+    }
+    EXPECT_GT(compared, normals.cols() / 2);
+}
+
+TEST(CornerNormals, AreWhatTheirDefinitionSays) {
+    expect_normals_by_definition(test::jittered_box({2, 2, 2, 2}, 5),
+                                 hyperplane_across({0.2, 0.3, -0.1, 1}, 0.4));
+    expect_normals_by_definition(kuhn_box<4>({2, 2, 2, 2}, {1, 1, 1, 1}), hyperplane_at(0.5));
 }
 
 TEST(CornerNormals, OfAFineBallPointAwayFromItsCenter) {

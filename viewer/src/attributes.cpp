@@ -7,9 +7,13 @@
 #include <Eigen/LU>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
 #include <limits>
 #include <numeric>
+#include <vector>
 
 namespace pent::viewer {
 
@@ -21,23 +25,88 @@ using Vector = Eigen::Matrix<double, Dim, 1>;
 template <int Dim>
 using Square = Eigen::Matrix<double, Dim, Dim>;
 
-// Sum of the normals around a vertex of those facets that are within the crease angle of `facet`.
+// Outward normals of facets, as long as the facets are large, and how long these are.
 template <int Dim>
-Vector<Dim> smooth_normal(const Boundary<Dim>& boundary,
-                          const Eigen::Matrix<double, Dim, Eigen::Dynamic>& normals,
-                          std::uint32_t facet,
-                          std::uint32_t vertex,
-                          double crease_cosine) {
-    const double length = normals.col(facet).norm();
-    Vector<Dim> sum = Vector<Dim>::Zero();
-    for (std::uint32_t i = boundary.vertex_begin[vertex]; i < boundary.vertex_begin[vertex + 1];
-         ++i) {
-        const auto other = normals.col(boundary.vertex_facets[i]);
-        if (other.dot(normals.col(facet)) >= crease_cosine * length * other.norm()) {
-            sum += other;
+struct FacetNormals {
+    Eigen::Matrix<double, Dim, Eigen::Dynamic> normals;
+    Eigen::VectorXd lengths;
+};
+
+template <int Dim>
+FacetNormals<Dim> facet_normals(const Boundary<Dim>& boundary, const Positions<Dim>& positions) {
+    FacetNormals<Dim> all;
+    all.normals.resize(Dim, boundary.facets.cols());
+    all.lengths.resize(boundary.facets.cols());
+    parallel_for(boundary.facets.cols(), kLightChunk, [&](Eigen::Index f) {
+        Square<Dim> corners;
+        for (int k = 0; k < Dim; ++k) {
+            corners.col(k) = positions.col(boundary.facets(k, f));
+        }
+        all.normals.col(f) = facet_normal<Dim>(corners);
+        all.lengths[f] = all.normals.col(f).norm();
+    });
+    return all;
+}
+
+// Unit normals at vertices as a facet sees them: the sums over those facets around a vertex that
+// are within the crease angle of it. The triangles of a facet ask for few of them many times.
+template <int Dim>
+class SmoothNormals {
+public:
+    SmoothNormals(const Boundary<Dim>& boundary,
+                  const FacetNormals<Dim>& all,
+                  std::uint32_t facet,
+                  double crease_cosine)
+        : boundary_(boundary), all_(all), facet_(facet), crease_cosine_(crease_cosine) {}
+
+    Vector<Dim> at(std::uint32_t vertex) {
+        const std::size_t known = std::min(asked_, vertices_.size());
+        for (std::size_t i = 0; i < known; ++i) {
+            if (vertices_[i] == vertex) {
+                return normals_[i];
+            }
+        }
+        const std::size_t place = asked_++ % vertices_.size();
+        vertices_[place] = vertex;
+        normals_[place] = sum_at(vertex).stableNormalized();
+        return normals_[place];
+    }
+
+private:
+    Vector<Dim> sum_at(std::uint32_t vertex) const {
+        const auto own = all_.normals.col(facet_);
+        const double least = crease_cosine_ * all_.lengths[facet_];
+        Vector<Dim> sum = Vector<Dim>::Zero();
+        for (std::uint32_t i = boundary_.vertex_begin[vertex];
+             i < boundary_.vertex_begin[vertex + 1]; ++i) {
+            const std::uint32_t facet = boundary_.vertex_facets[i];
+            const auto other = all_.normals.col(facet);
+            if (other.dot(own) >= least * all_.lengths[facet]) {
+                sum += other;
+            }
+        }
+        return sum;
+    }
+
+    const Boundary<Dim>& boundary_;
+    const FacetNormals<Dim>& all_;
+    std::uint32_t facet_;
+    double crease_cosine_;
+    std::array<std::uint32_t, 8> vertices_{};
+    std::array<Vector<Dim>, 8> normals_;
+    std::size_t asked_ = 0;
+};
+
+// Where triangles of another facet begin, and behind the last.
+std::vector<Eigen::Index> begin_of_facets(const std::vector<std::uint32_t>& facets) {
+    std::vector<Eigen::Index> begin;
+    for (std::size_t t = 0; t < facets.size(); ++t) {
+        if (t == 0 || facets[t] != facets[t - 1]) {
+            begin.push_back(static_cast<Eigen::Index>(t));
         }
     }
-    return sum;
+    begin.push_back(static_cast<Eigen::Index>(facets.size()));
+    return begin;
 }
 
 }  // namespace
@@ -109,28 +178,18 @@ Positions<3> corner_normals(const Surface& surface,
                             const Positions<Dim>& positions,
                             const Eigen::Matrix<double, 3, Dim>& axes,
                             double crease) {
-    Eigen::Matrix<double, Dim, Eigen::Dynamic> normals(Dim, boundary.facets.cols());
-    parallel_for(boundary.facets.cols(), kLightChunk, [&](Eigen::Index f) {
-        Square<Dim> corners;
-        for (int k = 0; k < Dim; ++k) {
-            corners.col(k) = positions.col(boundary.facets(k, f));
-        }
-        normals.col(f) = facet_normal<Dim>(corners);
-    });
+    const FacetNormals<Dim> all = facet_normals(boundary, positions);
+    const std::vector<Eigen::Index> begin = begin_of_facets(surface.facets);
     const double crease_cosine = std::cos(crease);
     Positions<3> result(3, 3 * surface.triangle_count());
-    parallel_for(surface.triangle_count(), kLightChunk, [&](Eigen::Index t) {
-        const std::uint32_t facet = surface.facets[t];
+    const auto shade = [&](Eigen::Index t, SmoothNormals<Dim>& smooth) {
         const Eigen::Vector3<std::uint32_t> triangle = surface.triangles.col(t);
         for (int k = 0; k < 3; ++k) {
             const std::uint32_t v = triangle[k];
-            const Vector<Dim> a =
-                smooth_normal<Dim>(boundary, normals, facet, surface.ends(0, v), crease_cosine);
-            const Vector<Dim> b =
-                smooth_normal<Dim>(boundary, normals, facet, surface.ends(1, v), crease_cosine);
             const double s = surface.weights[v];
             const Eigen::Vector3d seen =
-                axes * ((1.0 - s) * a.stableNormalized() + s * b.stableNormalized());
+                axes
+                * ((1.0 - s) * smooth.at(surface.ends(0, v)) + s * smooth.at(surface.ends(1, v)));
             result.col(3 * t + k) = seen.stableNormalized();
         }
         const Eigen::Vector3d p = surface.positions.col(triangle[0]);
@@ -141,6 +200,15 @@ Positions<3> corner_normals(const Surface& surface,
             if (result.col(3 * t + k).dot(flat) <= 0) {  // vanished, or turned away by a deep fold
                 result.col(3 * t + k) = flat;
             }
+        }
+    };
+    const auto facets = static_cast<Eigen::Index>(begin.size()) - 1;
+    parallel_for(facets, kLightChunk, [&](Eigen::Index i) {
+        const auto at = static_cast<std::size_t>(i);
+        SmoothNormals<Dim> smooth(
+            boundary, all, surface.facets[static_cast<std::size_t>(begin[at])], crease_cosine);
+        for (Eigen::Index t = begin[at]; t < begin[at + 1]; ++t) {
+            shade(t, smooth);
         }
     });
     return result;

@@ -81,15 +81,14 @@ Terms elasticity(const Trial& trial) {
         terms.push_back(
             {.name = name,
              .is_on = true,
-             .why =
-                 word(body.material.model)
-                 + formatted(", young %.4g Pa, poisson %.3g, ", young.young, young.poisson)
-                 + counted(tried.cells, "cell", "cells") + ", "
-                 + (body.regions.empty() ? ""
-                                         : counted(static_cast<std::int64_t>(body.regions.size()),
-                                                   "region of its own", "regions of their own")
-                                               + ", ")
-                 + word(scene.solver.elements) + ", filter " + word(scene.solver.filter),
+             .why = word(body.material.model)
+                    + formatted(", young %.4g Pa, poisson %.3g, ", young.young, young.poisson)
+                    + counted(tried.cells, "cell", "cells") + ", "
+                    + (body.regions.empty() ? ""
+                                            : counted(body.regions.size(), "region of its own",
+                                                      "regions of their own")
+                                                  + ", ")
+                    + word(scene.solver.elements) + ", filter " + word(scene.solver.filter),
              .unknowns = scene.dimension * tried.free_vertices,
              .bytes = static_cast<std::int64_t>(bytes),
              .seconds = share * trial.step.assembly_seconds});
@@ -143,9 +142,7 @@ Terms loads(const Trial& trial) {
                    + formatted("pressure %.4g N/m^%d", load.pressure, trial.scene.dimension - 1);
         }
         if (!load.keyframes.empty()) {
-            why += ", with "
-                   + counted(static_cast<std::int64_t>(load.keyframes.size()), "keyframe",
-                             "keyframes");
+            why += ", with " + counted(load.keyframes.size(), "keyframe", "keyframes");
         }
         terms.push_back(on("load on " + load.body, why));
     }

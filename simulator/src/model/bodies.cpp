@@ -4,6 +4,7 @@
 #include "model/part_bodies.h"
 #include "model/rotation.h"
 
+#include <pent/counted.h>
 #include <pent/dimensions.h>
 #include <pent/error.h>
 #include <pent/simulator/placed_mesh.h>
@@ -84,8 +85,8 @@ void check_meshes(const Scene& scene, std::size_t meshes) {
                     + std::to_string(Dim));
     }
     if (meshes != scene.bodies.size()) {
-        throw Error("the scene has " + std::to_string(scene.bodies.size()) + " bodies; got "
-                    + std::to_string(meshes) + " meshes");
+        throw Error("the scene has " + counted(scene.bodies.size(), "body", "bodies") + "; got "
+                    + counted(meshes, "mesh", "meshes"));
     }
 }
 

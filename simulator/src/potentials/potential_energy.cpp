@@ -7,6 +7,14 @@
 namespace pent::simulator {
 
 template <int Dim>
+void PotentialEnergy<Dim>::remove_from(const Potential<Dim>& term) {
+    terms_.erase(std::find_if(terms_.begin(), terms_.end(),
+                              [&](const auto& other) { return other.get() == &term; }),
+                 terms_.end());
+    invalidate();
+}
+
+template <int Dim>
 void PotentialEnergy<Dim>::update(const Positions<Dim>& x) {
     if (is_valid_ && x_.cols() == x.cols() && x_ == x) {
         return;

@@ -21,6 +21,9 @@ public:
         return added;
     }
 
+    /// Takes away a term, and all that were added behind it.
+    void remove_from(const Potential<Dim>& term);
+
     /// Evaluates all terms, unless that is what was done last.
     void update(const Positions<Dim>& x);
 

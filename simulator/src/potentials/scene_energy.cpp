@@ -55,10 +55,22 @@ SceneEnergy<Dim>::SceneEnergy(const Workers& workers,
         attachments = &sum.add(std::make_unique<Attachments<Dim>>(workers, scene, bodies));
     }
     grabs = &sum.add(std::make_unique<Grabs<Dim>>(scene, bodies));
-    contact = &sum.add(std::make_unique<ContactPotential<Dim>>(workers, scene, bodies, held));
-    if (const auto law = friction_law(scene)) {
-        friction = &sum.add(std::make_unique<FrictionPotential<Dim>>(*contact, *law));
-    }
+    add_contact(std::make_unique<ContactPotential<Dim>>(workers, scene, bodies, held), scene);
+}
+
+template <int Dim>
+void SceneEnergy<Dim>::add_contact(std::unique_ptr<ContactPotential<Dim>> potential,
+                                   const Scene& scene) {
+    contact = &sum.add(std::move(potential));
+    const auto law = friction_law(scene);
+    friction = law ? &sum.add(std::make_unique<FrictionPotential<Dim>>(*contact, *law)) : nullptr;
+}
+
+template <int Dim>
+void SceneEnergy<Dim>::replace_contact(std::unique_ptr<ContactPotential<Dim>> other,
+                                       const Scene& scene) {
+    sum.remove_from(*contact);
+    add_contact(std::move(other), scene);
 }
 
 #define PENT_INSTANTIATE(Dim) template struct SceneEnergy<Dim>;

@@ -23,6 +23,11 @@ struct SceneEnergy {
                 const HeldVertices<Dim>& held,
                 const Scene& scene);
 
+    /// Puts contact of other obstacles, and friction with it, in the place of what there is.
+    ///
+    /// @param scene  With these obstacles.
+    void replace_contact(std::unique_ptr<ContactPotential<Dim>> other, const Scene& scene);
+
     PotentialEnergy<Dim> sum;
     // Terms that have more to say than the others, or that a host changes.
     Gravity<Dim>* gravity;
@@ -32,6 +37,10 @@ struct SceneEnergy {
     Grabs<Dim>* grabs;
     FrictionPotential<Dim>* friction = nullptr;  // null without friction
     Attachments<Dim>* attachments = nullptr;     // null without [[attachment]]
+
+private:
+    // They come last: all else stays where it is when they are replaced.
+    void add_contact(std::unique_ptr<ContactPotential<Dim>> potential, const Scene& scene);
 };
 
 }  // namespace pent::simulator

@@ -2,6 +2,7 @@
 
 #include "model/rotation.h"
 
+#include <pent/counted.h>
 #include <pent/dimensions.h>
 #include <pent/error.h>
 #include <pent/formatted.h>
@@ -51,11 +52,25 @@ void check_vertices(int body,
 }
 
 template <int Dim>
-void check_array(const char* what, const Positions<Dim>& array, Eigen::Index count) {
-    if (array.cols() != count || !array.allFinite()) {
-        throw Error(std::string(what) + " of " + std::to_string(array.cols())
-                    + " vertices were given; expected " + std::to_string(Dim)
-                    + " finite numbers for each of " + std::to_string(count));
+void check_array(const std::string& what,
+                 const Positions<Dim>& array,
+                 Eigen::Index count,
+                 const std::vector<std::uint32_t>& vertices) {
+    if (array.cols() != count) {
+        throw Error(what + " were given for " + counted(array.cols(), "vertex", "vertices")
+                    + "; expected " + std::to_string(Dim) + " numbers for each of "
+                    + std::to_string(count));
+    }
+    for (Eigen::Index i = 0; i < array.size(); ++i) {
+        const double number = array.data()[i];
+        if (!std::isfinite(number)) {
+            const Eigen::Index column = i / Dim;
+            throw Error(what + formatted(": found %g for ", number) + "xyzw"[i % Dim]
+                        + " of vertex "
+                        + std::to_string(
+                            vertices.empty() ? column : vertices[static_cast<std::size_t>(column)])
+                        + "; expected finite numbers");
+        }
     }
 }
 
@@ -94,7 +109,8 @@ void check_host(const HostState<Dim>& host, const Bodies<Dim>& bodies) {
         throw Error("gravity must be finite");
     }
     check_array<Dim>("forces", host.forces, host.forces.cols() == 0 ? 0 : bodies.vertex_count());
-    check_array<Dim>("targets", host.targets, static_cast<Eigen::Index>(host.held.size()));
+    check_array<Dim>("targets", host.targets, static_cast<Eigen::Index>(host.held.size()),
+                     host.held);
     const auto is_not_after = [](auto a, auto b) { return a >= b; };
     if (std::adjacent_find(host.held.begin(), host.held.end(), is_not_after) != host.held.end()
         || (!host.held.empty() && host.held.back() >= bodies.vertex_count())) {
@@ -118,7 +134,8 @@ void check_host(const HostState<Dim>& host, const Bodies<Dim>& bodies) {
 #define PENT_INSTANTIATE(Dim)                                                                 \
     template void check_body(int, const Bodies<Dim>&);                                        \
     template void check_vertices(int, const std::vector<std::uint32_t>&, const Bodies<Dim>&); \
-    template void check_array<Dim>(const char*, const Positions<Dim>&, Eigen::Index);         \
+    template void check_array<Dim>(const std::string&, const Positions<Dim>&, Eigen::Index,   \
+                                   const std::vector<std::uint32_t>&);                        \
     template void check_grab(const Grab<Dim>&, const Bodies<Dim>&);                           \
     template void check_host(const HostState<Dim>&, const Bodies<Dim>&);
 PENT_FOR_EACH_DIMENSION(PENT_INSTANTIATE)

@@ -4,6 +4,8 @@
 
 #include <pent/simulator/host.h>
 
+#include <cstdint>
+#include <string>
 #include <vector>
 
 namespace pent::simulator {
@@ -19,9 +21,14 @@ void check_vertices(int body,
                     const std::vector<std::uint32_t>& vertices,
                     const Bodies<Dim>& bodies);
 
-/// An array for so many vertices.
+/// An array for so many vertices, of finite numbers.
+///
+/// @param vertices  Which they are, for messages; empty for all from 0.
 template <int Dim>
-void check_array(const char* what, const Positions<Dim>& array, Eigen::Index count);
+void check_array(const std::string& what,
+                 const Positions<Dim>& array,
+                 Eigen::Index count,
+                 const std::vector<std::uint32_t>& vertices = {});
 
 template <int Dim>
 void check_grab(const Grab<Dim>& grab, const Bodies<Dim>& bodies);

@@ -72,13 +72,8 @@ void check_state(const std::string& what,
                  const Positions<Dim>& positions,
                  const Positions<Dim>& velocities,
                  Eigen::Index count) {
-    if (positions.cols() != count || velocities.cols() != count || !positions.allFinite()
-        || !velocities.allFinite()) {
-        throw Error("the state of " + what + ", of " + std::to_string(positions.cols())
-                    + " positions and " + std::to_string(velocities.cols())
-                    + " velocities, was given; expected finite ones of its " + std::to_string(count)
-                    + " vertices");
-    }
+    check_array<Dim>("positions" + what, positions, count);
+    check_array<Dim>("velocities" + what, velocities, count);
 }
 
 // Of a barrier.
@@ -201,7 +196,7 @@ void Simulation<Dim>::set_state(int body,
                                 const Positions<Dim>& velocities) {
     check_body(body, stepper_->bodies());
     const Eigen::Index count = stepper_->bodies().vertices(static_cast<std::size_t>(body)).size;
-    check_state("body " + std::to_string(body), positions, velocities, count);
+    check_state(" of body " + std::to_string(body), positions, velocities, count);
     stepper_->set_body(body, positions, velocities);
 }
 
@@ -217,10 +212,17 @@ Snapshot<Dim> Simulation<Dim>::save() const {
 
 template <int Dim>
 void Simulation<Dim>::restore(const Snapshot<Dim>& snapshot) {
+    const double time_step = stepper_->scene().dt();
+    if (snapshot.time_step != time_step) {
+        throw Error(
+            formatted("the state is of a simulation with steps of %.9g s; this one has steps",
+                      snapshot.time_step)
+            + formatted(" of %.9g s: set positions and velocities instead", time_step));
+    }
     const Eigen::Index vertices = stepper_->bodies().vertex_count();
-    check_state("a snapshot", snapshot.positions, snapshot.velocities, vertices);
+    check_state(" in a snapshot", snapshot.positions, snapshot.velocities, vertices);
     if (snapshot.previous_positions.cols() > 0 || snapshot.previous_velocities.cols() > 0) {
-        check_state("a snapshot one step ago", snapshot.previous_positions,
+        check_state(" one step ago in a snapshot", snapshot.previous_positions,
                     snapshot.previous_velocities, vertices);
     }
     const Snapshot<Dim> now = stepper_->save();

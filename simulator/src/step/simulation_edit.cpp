@@ -1,5 +1,5 @@
-// Bodies and obstacles that come and go: a Stepper of the changed scene takes the place of the old
-// one, in the same state.
+// Bodies and obstacles that come and go. With other bodies a Stepper of the changed scene takes the
+// place of the old one, in the same state.
 
 #include "model/part_bodies.h"
 #include "step/host_checks.h"
@@ -150,16 +150,6 @@ void refuse_parts(const Bodies<Dim>& bodies) {
 }  // namespace
 
 template <int Dim>
-void Simulation<Dim>::rebuild(const Scene& scene,
-                              std::vector<SimplexMesh<Dim>> meshes,
-                              const Snapshot<Dim>& snapshot) {
-    refuse_parts(stepper_->bodies());
-    auto next = std::make_shared<Stepper>(scene, std::move(meshes), stepper_->options());
-    next->restore(snapshot);
-    stepper_ = std::move(next);
-}
-
-template <int Dim>
 void Simulation<Dim>::add_body(const Body& body, SimplexMesh<Dim> mesh) {
     refuse_parts(stepper_->bodies());
     Scene scene = placed(stepper_->scene());
@@ -192,45 +182,48 @@ void Simulation<Dim>::add_body(const Body& body, SimplexMesh<Dim> mesh) {
 template <int Dim>
 void Simulation<Dim>::remove_body(int body) {
     const Bodies<Dim>& bodies = stepper_->bodies();
+    refuse_parts(bodies);
     check_body(body, bodies);
     const auto index = static_cast<std::size_t>(body);
     Snapshot<Dim> snapshot = stepper_->save();
     wake(stepper_->neighbors_of_body(index), snapshot);
     std::vector<SimplexMesh<Dim>> meshes = bodies.meshes;
     meshes.erase(meshes.begin() + body);
-    rebuild(placed(without_body(stepper_->scene(), index)), std::move(meshes),
-            without_body(std::move(snapshot), stepper_->scene(), bodies, stepper_->held(), index));
+    auto next = std::make_shared<Stepper>(placed(without_body(stepper_->scene(), index)),
+                                          std::move(meshes), stepper_->options());
+    next->restore(
+        without_body(std::move(snapshot), stepper_->scene(), bodies, stepper_->held(), index));
+    stepper_ = std::move(next);
 }
 
 template <int Dim>
 void Simulation<Dim>::add_obstacle(const Obstacle& obstacle) {
+    refuse_parts(stepper_->bodies());
     Scene scene = placed(stepper_->scene());
     scene.obstacles.push_back(obstacle);
-    rebuild(scene, stepper_->bodies().meshes, stepper_->save());
+    stepper_->set_obstacles(scene, {});
     stepper_->wake(stepper_->neighbors_of_obstacle(scene.obstacles.size() - 1));
 }
 
 template <int Dim>
 void Simulation<Dim>::remove_obstacle(int obstacle) {
+    refuse_parts(stepper_->bodies());
     Scene scene = placed(stepper_->scene());
     const auto count = static_cast<int>(scene.obstacles.size());
     if (obstacle < 0 || obstacle >= count) {
         throw Error("obstacle " + std::to_string(obstacle) + " of " + std::to_string(count)
                     + "; count from 0");
     }
-    Snapshot<Dim> snapshot = stepper_->save();
-    wake(stepper_->neighbors_of_obstacle(static_cast<std::size_t>(obstacle)), snapshot);
     scene.obstacles.erase(scene.obstacles.begin() + obstacle);
-    rebuild(scene, stepper_->bodies().meshes, snapshot);
+    stepper_->set_obstacles(std::move(scene),
+                            stepper_->neighbors_of_obstacle(static_cast<std::size_t>(obstacle)));
 }
 
-#define PENT_INSTANTIATE(Dim)                                                           \
-    template void Simulation<Dim>::add_body(const Body&, SimplexMesh<Dim>);             \
-    template void Simulation<Dim>::remove_body(int);                                    \
-    template void Simulation<Dim>::add_obstacle(const Obstacle&);                       \
-    template void Simulation<Dim>::remove_obstacle(int);                                \
-    template void Simulation<Dim>::rebuild(const Scene&, std::vector<SimplexMesh<Dim>>, \
-                                           const Snapshot<Dim>&);
+#define PENT_INSTANTIATE(Dim)                                               \
+    template void Simulation<Dim>::add_body(const Body&, SimplexMesh<Dim>); \
+    template void Simulation<Dim>::remove_body(int);                        \
+    template void Simulation<Dim>::add_obstacle(const Obstacle&);           \
+    template void Simulation<Dim>::remove_obstacle(int);
 PENT_FOR_EACH_DIMENSION(PENT_INSTANTIATE)
 #undef PENT_INSTANTIATE
 

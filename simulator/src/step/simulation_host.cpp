@@ -47,7 +47,7 @@ void Simulation<Dim>::set_targets(int body,
                                   const Positions<Dim>& targets) {
     const Bodies<Dim>& bodies = stepper_->bodies();
     check_vertices(body, vertices, bodies);
-    check_array<Dim>("targets", targets, static_cast<Eigen::Index>(vertices.size()));
+    check_array<Dim>("targets", targets, static_cast<Eigen::Index>(vertices.size()), vertices);
     Held<Dim> held = held_in(stepper_->held().of_host());
     for (std::size_t i = 0; i < vertices.size(); ++i) {
         held[static_cast<std::uint32_t>(first_vertex(body)) + vertices[i]] =

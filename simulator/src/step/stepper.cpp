@@ -73,9 +73,15 @@ void Simulation<Dim>::Stepper::start() {
     evaluate_current();
 }
 
+// The step that has led here.
+template <int Dim>
+TimeSpan Simulation<Dim>::Stepper::last_step() const {
+    return {std::max(0.0, time() - scene_.dt()), time()};
+}
+
 template <int Dim>
 void Simulation<Dim>::Stepper::evaluate_current() {
-    energy_.sum.set_time({std::max(0.0, time() - scene_.dt()), time()});
+    energy_.sum.set_time(last_step());
     energy_.sum.update(current_.positions);
     energy_.elasticity->evaluate_held(current_.positions);
     forces_ = -energy_.sum.gradient();
@@ -117,6 +123,22 @@ void Simulation<Dim>::Stepper::set_body(int body,
 }
 
 template <int Dim>
+void Simulation<Dim>::Stepper::set_obstacles(Scene scene, const std::vector<std::size_t>& woken) {
+    check(scene);
+    auto contact = std::make_unique<ContactPotential<Dim>>(workers_, scene, bodies_, held_);
+    static_cast<void>(contact->set_time(last_step()));
+    contact->set_stiffness(energy_.contact->stiffness());
+    const std::vector<contact::Crossing> crossings = contact->find_crossings(current_.positions);
+    if (!crossings.empty()) {
+        throw crossing_error(bodies_, *contact, crossings, current_.positions);
+    }
+    scene_ = std::move(scene);
+    energy_.replace_contact(std::move(contact), scene_);
+    wake(woken);
+    evaluate_anew();
+}
+
+template <int Dim>
 Snapshot<Dim> Simulation<Dim>::Stepper::save() const {
     return {.positions = current_.positions,
             .velocities = current_.velocities,
@@ -124,6 +146,7 @@ Snapshot<Dim> Simulation<Dim>::Stepper::save() const {
             .previous_velocities = history_.velocities,
             .sleep = islands_.states(),
             .steps = steps_,
+            .time_step = scene_.dt(),
             .contact_stiffness = energy_.contact->stiffness(),
             .hold_places = held_.places(),
             .broken_springs = broken_springs(),
@@ -150,6 +173,9 @@ void Simulation<Dim>::Stepper::restore(const Snapshot<Dim>& snapshot) {
     } catch (const CrossingError<Dim>&) {
         evaluate_current();  // obstacles are where they were
         throw;
+    }
+    if (moves_sleepers(snapshot.positions)) {
+        asleep_.clear();  // the forces that they keep are those of where they lay
     }
     current_.positions = snapshot.positions;
     current_.velocities = snapshot.velocities;
@@ -196,6 +222,20 @@ void Simulation<Dim>::Stepper::refuse_crossings(const Positions<Dim>& positions,
     if (!crossings.empty()) {
         throw crossing_error(bodies_, *energy_.contact, crossings, positions);
     }
+}
+
+// Whether something that sleeps now would lie elsewhere.
+template <int Dim>
+bool Simulation<Dim>::Stepper::moves_sleepers(const Positions<Dim>& to) const {
+    for (std::size_t body = 0; body < asleep_.size(); ++body) {
+        const auto range = bodies_.vertices(body);
+        if (asleep_[body]
+            && to.middleCols(range.begin, range.size)
+                   != current_.positions.middleCols(range.begin, range.size)) {
+            return true;
+        }
+    }
+    return false;
 }
 
 // Gives dofs to the bodies that are awake, and to no other; what sleeps keeps its forces.

@@ -37,6 +37,9 @@ public:
 
     StepReport step();
     void set_body(int body, const Positions<Dim>& positions, const Positions<Dim>& velocities);
+    /// Goes on with a scene that differs in its obstacles, and wakes bodies. Throws a
+    /// CrossingError, and changes nothing, where a barrier does not allow it.
+    void set_obstacles(Scene scene, const std::vector<std::size_t>& woken);
     [[nodiscard]] Snapshot<Dim> save() const;
     void restore(const Snapshot<Dim>& snapshot);
 
@@ -110,6 +113,8 @@ private:
     void forget_history() { history_ = {}; }
     void evaluate_current();
     void evaluate_anew();
+    [[nodiscard]] TimeSpan last_step() const;
+    [[nodiscard]] bool moves_sleepers(const Positions<Dim>& to) const;
     void refuse_crossings(const Positions<Dim>& positions, const HeldVertices<Dim>& held) const;
     void add_work(StepReport& report);
     [[nodiscard]] std::vector<std::uint8_t> broken_springs() const;
@@ -117,7 +122,7 @@ private:
     [[nodiscard]] double kinetic_energy(const Positions<Dim>& velocities) const;
 
     SimulationOptions options_;
-    const Scene scene_;
+    Scene scene_;
     Workers workers_;
     Isa isa_;
     const Kernels<Dim>* kernels_;

@@ -77,6 +77,7 @@ void take_over(const Simulation<Dim>& before, Simulation<Dim>& simulation) {
     const double dt = simulation.scene().dt();
     if (dt != before.scene().dt()) {
         state.steps = static_cast<std::uint64_t>(std::llround(before.time() / dt));
+        state.time_step = dt;
         state.previous_positions.resize(Dim, 0);
         state.previous_velocities.resize(Dim, 0);
     }

@@ -26,7 +26,7 @@ namespace pent::simulator {
 /// A scene in motion, which a host program steps.
 ///
 /// State is kept in double. Bodies are in the order of the scene; vertices in the order of their
-/// mesh. Views show the state as it is at the time, until bodies or obstacles come or go.
+/// mesh. Views show the state as it is at the time, until bodies come or go.
 template <int Dim>
 class Simulation {
 public:
@@ -57,7 +57,8 @@ public:
     /// velocities and time stay as they were; bodies that it woke are awake.
     [[nodiscard]] StepReport step();
 
-    /// As it is now; bodies have nothing left to be placed by once one was added or removed.
+    /// As it is now; bodies have nothing left to be placed by once a body or an obstacle was
+    /// added or removed.
     [[nodiscard]] const Scene& scene() const;
 
     [[nodiscard]] int body_count() const;
@@ -116,8 +117,8 @@ public:
                      const Positions<Dim>& targets);
 
     /// Lets vertices go: they are free, or again where a constraint has them at the end of the next
-    /// step. Those that no host holds are left alone. A CrossingError where a barrier would not have
-    /// them free as they are.
+    /// step. Those that no host holds are left alone. A CrossingError where a barrier would not
+    /// have them free as they are.
     void release(int body, const std::vector<std::uint32_t>& vertices);
 
     /// Takes hold of a point. The number returned stands for the grab below.
@@ -131,9 +132,9 @@ public:
 
     [[nodiscard]] HostState<Dim> host() const;
 
-    // Bodies and obstacles that come and go. Each costs what a start costs; views are gone. What is
-    // not right, or crosses at a barrier, is refused as by the constructor, and nothing has
-    // changed.
+    // Bodies and obstacles that come and go. A body costs what a start costs, and views are gone;
+    // an obstacle costs as much as holding other vertices. What is not right, or crosses at a
+    // barrier, is refused as by the constructor, and nothing has changed.
 
     /// Adds a body behind all others, as a scene has it at its start.
     void add_body(const Body& body, SimplexMesh<Dim> mesh);
@@ -151,15 +152,13 @@ public:
     [[nodiscard]] Snapshot<Dim> save() const;
 
     /// Puts everything back. Throws an Error, and changes nothing, unless the snapshot fits the
-    /// scene as it is now: as many vertices, bodies and springs, all finite, none asleep without
-    /// Scene::sleep; and a CrossingError where a barrier does not allow the positions.
+    /// scene as it is now: the same time step, as many vertices, bodies and springs, all finite,
+    /// none asleep without Scene::sleep; and a CrossingError where a barrier does not allow the
+    /// positions.
     void restore(const Snapshot<Dim>& snapshot);
 
 private:
     class Stepper;
-    void rebuild(const Scene& scene,
-                 std::vector<SimplexMesh<Dim>> meshes,
-                 const Snapshot<Dim>& snapshot);
     std::shared_ptr<Stepper> stepper_;
 };
 

@@ -19,7 +19,8 @@ struct SleepState {
 };
 
 /// All that a simulation carries from one step to the next, to be put back later: the same steps
-/// follow, to the bit.
+/// follow, to the bit. Whoever goes on by steps of another length gives that, how many of them have
+/// led to the same time, and nothing one step ago.
 template <int Dim>
 struct Snapshot {
     Positions<Dim> positions;   ///< Dim x vertices of all bodies, m.
@@ -30,7 +31,8 @@ struct Snapshot {
     Positions<Dim> previous_positions;
     Positions<Dim> previous_velocities;
     std::vector<SleepState> sleep;  ///< One a body.
-    std::uint64_t steps = 0;        ///< Taken so far.
+    std::uint64_t steps = 0;        ///< Taken so far,
+    double time_step = 0;           ///< of this length, s.
     double contact_stiffness = 0;   ///< To which a barrier has adapted, N/m; 0 without one.
     /// Where constraints that begin after the start have taken up their vertices, m: Dim x their
     /// vertices, one constraint after the other; zero for those that have not begun.
