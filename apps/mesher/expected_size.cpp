@@ -5,6 +5,7 @@
 #include "common/heartbeat.h"
 #include "common/progress.h"
 
+#include <pent/counted.h>
 #include <pent/error.h>
 #include <pent/formatted.h>
 #include <pent/simplex_mesh.h>
@@ -32,10 +33,10 @@ void ask_about_size(const Program& program, bool yes, const mesher::ExpectedSize
     if (size.cells <= kManyCells && size.seconds <= kLong) {
         return;
     }
-    const std::string layers = size.layers > 0
-                                   ? formatted(" (%s cells of the base in %d layers)",
-                                               readable_count(size.base_cells).c_str(), size.layers)
-                                   : "";
+    const std::string layers = size.layers > 0 ? " (" + readable_count(size.base_cells)
+                                                     + " cells of the base in "
+                                                     + counted(size.layers, "layer", "layers") + ")"
+                                               : "";
     const std::string text = "about " + readable_count(size.cells) + " "
                              + std::string(cell_name_plural(dim)) + layers + ", and about "
                              + readable_time(size.seconds) + " of work";

@@ -4,6 +4,7 @@
 
 #include "common/values.h"
 
+#include <pent/counted.h>
 #include <pent/error.h>
 #include <pent/input_path.h>
 
@@ -289,7 +290,7 @@ decltype(mesher::BodyRequest::input) input_of(const MeshArguments& arguments) {
     if (arguments.size.size() != 1 && arguments.size.size() != arguments.box.size()) {
         throw Error("--size: found " + std::to_string(arguments.size.size())
                     + " numbers; expected one, or one for each of the "
-                    + std::to_string(arguments.box.size()) + " axes of --box");
+                    + counted(arguments.box.size(), "axis", "axes") + " of --box");
     }
     mesher::BoxShape box{arguments.box, {}, arguments.cut};
     for (std::size_t axis = 0; axis < arguments.box.size(); ++axis) {

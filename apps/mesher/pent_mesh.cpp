@@ -17,6 +17,7 @@
 #include <pent/mesher/make_body.h>
 #include <pent/mesher/moving_mesh.h>
 #include <pent/mesher/read_solid.h>
+#include <pent/mesher/tetgen_files.h>
 #include <pent/output_file.h>
 #include <pent/pent_file.h>
 
@@ -298,12 +299,7 @@ std::vector<NamedFile> inputs_of(const MeshArguments& arguments) {
         const bool is_folder = std::filesystem::is_directory(arguments.input, ignored);
         inputs.push_back({"the input", arguments.input, is_folder});
     }
-    const std::filesystem::path ending = arguments.input.extension();
-    if (ending == ".node" || ending == ".ele") {
-        std::filesystem::path other = arguments.input;
-        inputs.push_back(
-            {"its other half", other.replace_extension(ending == ".node" ? ".ele" : ".node")});
-    }
+    inputs.push_back({"its other half", pent::mesher::other_tetgen_file(arguments.input)});
     return inputs;
 }
 

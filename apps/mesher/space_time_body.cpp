@@ -7,6 +7,7 @@
 #include "mesh_text.h"
 #include "watchdog.h"
 
+#include <pent/counted.h>
 #include <pent/error.h>
 #include <pent/formatted.h>
 #include <pent/input_path.h>
@@ -178,10 +179,9 @@ void say_time(const Program& program, const MeshArguments& arguments, const Made
     const double start = translation.size() == 4 ? translation[3] : 0;
     const std::string offset =
         start == 0 ? "" : formatted(" %c %g m", start < 0 ? '-' : '+', std::abs(start));
-    program.say(
-        formatted("time       w = %g m/s * t%s; %d layer%s of %s, best for cells at"
-                  " --time-scale %.3g",
-                  scale, offset.c_str(), layers, layers == 1 ? "" : "s", heights.c_str(), best));
+    program.say(formatted("time       w = %g m/s * t%s; ", scale, offset.c_str())
+                + counted(layers, "layer", "layers") + " of " + heights
+                + formatted(", best for cells at --time-scale %.3g", best));
 }
 
 void say_body(const Program& program, const Made& made) {

@@ -59,6 +59,9 @@ void refuse_other_options(const CLI::App& cli) {
 // Runs have times and regions, and other series are one body.
 void refuse_options_of_the_other(const CLI::App& cli, const std::filesystem::path& input) {
     std::error_code ignored;
+    if (!std::filesystem::exists(input, ignored)) {
+        return;  // whoever reads it says so
+    }
     const bool is_run = std::filesystem::is_directory(input, ignored);
     const std::vector<const char*> unheeded =
         is_run ? std::vector{"--time-step", "--region-array"} : std::vector{"--body"};

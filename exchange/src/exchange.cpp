@@ -1,5 +1,6 @@
 #include "formats.h"
 
+#include <pent/counted.h>
 #include <pent/error.h>
 #include <pent/input_path.h>
 
@@ -57,7 +58,7 @@ void check_frames(const std::filesystem::path& path,
         }
         if (frame.points.cols() != points) {
             throw Error(path.string() + ": frame " + frame.name + " has "
-                        + std::to_string(frame.points.cols()) + " points; expected "
+                        + counted(frame.points.cols(), "point", "points") + "; expected "
                         + std::to_string(points));
         }
     }

@@ -3,6 +3,7 @@
 #include "text_lines.h"
 
 #include <pent/base64.h>
+#include <pent/counted.h>
 #include <pent/error.h>
 #include <pent/read_text.h>
 
@@ -46,7 +47,8 @@ public:
             json_ = Json::parse(chunks_.empty() ? std::string_view(bytes_) : chunks_[0]);
             const auto dimension = json_.at("asset").at("dimension").get<std::int64_t>();
             if (dimension != 4) {
-                fail("a model of " + std::to_string(dimension) + " dimensions; expected 4");
+                fail("a model of " + counted(dimension, "dimension", "dimensions")
+                     + "; expected 4");
             }
         } catch (const Json::exception& error) {
             fail_json(error);
@@ -68,8 +70,9 @@ public:
         const Json& entry = json_.at("accessors").at(accessor);
         const std::string place = "accessor " + std::to_string(accessor);
         if (entry.value("vectorSize", std::size_t{1}) != size) {
-            fail(place + ": elements of " + std::to_string(entry.value("vectorSize", 1))
-                 + " numbers; expected " + std::to_string(size));
+            fail(place + ": elements of "
+                 + counted(entry.value("vectorSize", 1), "number", "numbers") + "; expected "
+                 + std::to_string(size));
         }
         // Drafts of the format have called it both.
         const char* key = entry.contains("componentType") ? "componentType" : "primitiveType";
@@ -109,8 +112,8 @@ private:
             const auto compression = number_at<std::uint32_t>(bytes_, at + 4);
             const auto size = number_at<std::uint64_t>(bytes_, at + 8);
             if (size > bytes_.size() - at - kHeader) {
-                fail("chunk " + std::to_string(chunks_.size()) + " has " + std::to_string(size)
-                     + " bytes; the file ends before");
+                fail("chunk " + std::to_string(chunks_.size()) + " has "
+                     + counted(size, "byte", "bytes") + "; the file ends before");
             }
             if (compression != 0) {
                 fail("chunk " + std::to_string(chunks_.size())
@@ -237,7 +240,7 @@ private:
             const auto list = node.at(key).get<std::vector<double>>();
             if (list.size() != count) {
                 document_.fail("node " + std::to_string(index) + ": " + key + " has "
-                               + std::to_string(list.size()) + " numbers; expected "
+                               + counted(list.size(), "number", "numbers") + "; expected "
                                + std::to_string(count));
             }
             return list;

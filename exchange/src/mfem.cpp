@@ -1,6 +1,7 @@
 #include "formats.h"
 #include "text_lines.h"
 
+#include <pent/counted.h>
 #include <pent/error.h>
 #include <pent/facets.h>
 #include <pent/output_file.h>
@@ -107,7 +108,7 @@ void check_header(TextReader& text) {
     expect_word(text, "dimension");
     const std::int64_t dimension = text.integer(text.next_word("a dimension"), "a dimension");
     if (dimension != 4) {
-        text.fail("a mesh of " + std::to_string(dimension) + " dimensions; expected 4");
+        text.fail("a mesh of " + counted(dimension, "dimension", "dimensions") + "; expected 4");
     }
 }
 

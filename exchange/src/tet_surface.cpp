@@ -78,9 +78,7 @@ struct Side {
     std::uint32_t tetrahedron = 0;
     bool is_turned = false;
 
-    bool operator<(const Side& other) const {
-        return corners != other.corners ? corners < other.corners : tetrahedron < other.tetrahedron;
-    }
+    bool operator<(const Side& other) const { return corners < other.corners; }
 };
 
 // All triangles, those with the same corners side by side.

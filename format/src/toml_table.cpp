@@ -1,5 +1,6 @@
 #include "pent/toml_table.h"
 
+#include <pent/counted.h>
 #include <pent/error.h>
 #include <pent/nearest_name.h>
 
@@ -199,8 +200,8 @@ Eigen::VectorXd TableReader::vector(std::string_view key,
         fail(key, in_quotes(key) + " is " + type_of(*node) + "; expected " + expected);
     }
     if (array->size() != static_cast<std::size_t>(length)) {
-        fail(key, in_quotes(key) + " has " + std::to_string(array->size()) + " entries; expected "
-                      + expected);
+        fail(key, in_quotes(key) + " has " + counted(array->size(), "entry", "entries")
+                      + "; expected " + expected);
     }
     Eigen::VectorXd vector(length);
     for (int axis = 0; axis < length; ++axis) {

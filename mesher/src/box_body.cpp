@@ -4,6 +4,7 @@
 #include "size_limits.h"
 #include "solid_input.h"
 
+#include <pent/counted.h>
 #include <pent/error.h>
 
 #include <algorithm>
@@ -20,7 +21,7 @@ Body<Dim> make_box(const BoxShape& shape, const BodyRequest& request, StageClock
     refuse_filling(request);
     refuse_image_options(request);
     if (shape.count.size() != Dim || shape.size.size() != Dim) {
-        throw Error("a box of " + std::to_string(shape.count.size()) + " axes; expected "
+        throw Error("a box of " + counted(shape.count.size(), "axis", "axes") + "; expected "
                     + std::to_string(Dim));
     }
     std::array<int, Dim> count{};

@@ -63,9 +63,10 @@ CarriedArrays carried_point_arrays(const FileGrid& grid, std::vector<std::string
 }
 
 CarriedArrays carried_cell_arrays(const FileGrid& grid,
+                                  const CarriedArrays& of_points,
                                   std::string_view regions,
                                   std::vector<std::string>& left_out) {
-    FieldNames names(reserved_cell_names(4));
+    FieldNames names(reserved_cell_names(4), {of_points.names.begin(), of_points.names.end()});
     CarriedArrays carried;
     bool has_fibers = false;
     for (const FileArray& array : grid.cell_arrays) {

@@ -21,9 +21,11 @@ struct CarriedArrays {
 [[nodiscard]] CarriedArrays carried_point_arrays(const FileGrid& grid,
                                                  std::vector<std::string>& left_out);
 
-/// The same of the cells.
-/// @param regions  The array with their labels, which is none of them.
+/// The same of the cells, under names that none of the points has.
+/// @param of_points  Those of the points.
+/// @param regions    The array with their labels, which is none of them.
 [[nodiscard]] CarriedArrays carried_cell_arrays(const FileGrid& grid,
+                                                const CarriedArrays& of_points,
                                                 std::string_view regions,
                                                 std::vector<std::string>& left_out);
 

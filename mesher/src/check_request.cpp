@@ -3,6 +3,7 @@
 #include "base_mesh.h"
 #include "solid_input.h"
 
+#include <pent/counted.h>
 #include <pent/error.h>
 #include <pent/mesher/read_tetrahedra.h>
 
@@ -38,7 +39,7 @@ void check_request(const BodyRequest& request, int dim) {
     }
     const Eigen::Index axes = request.translation.size();
     if ((axes != 0 && axes != 3 && axes != dim) || !request.translation.allFinite()) {
-        throw Error("a translation of " + std::to_string(axes) + " components; expected 3"
+        throw Error("a translation of " + counted(axes, "component", "components") + "; expected 3"
                     + (dim == 4 ? " or 4" : "") + " finite ones");
     }
     if ((extrusion.round || !extrusion.profile.empty()) && extrusion.anchor != Anchor::Middle) {

@@ -230,11 +230,13 @@ public:
 
     void refuse(const CellSoup& soup, const std::string& name) const {
         if (first_ >= 0) {
+            const auto refused = std::accumulate(counts_.begin(), counts_.end(), std::int64_t{0});
             throw Error(
                 name + ": "
                 + list_counts(counts_, CellKind::Tetrahedron, CellKind::Polyhedron) + " of "
-                + std::to_string(soup.kinds.size())
-                + " cells are too warped or flat to be cut: a tetrahedron of them would have no"
+                + counted(soup.kinds.size(), "cell", "cells")
+                + (refused == 1 ? " is" : " are")
+                + " too warped or flat to be cut: a tetrahedron of them would have no"
                   " volume or a negative one (first: cell "
                 + std::to_string(first_) + ", from 0); smooth the mesh or write tetrahedra");
         }

@@ -1,4 +1,5 @@
 
+#include <pent/counted.h>
 #include <pent/error.h>
 #include <pent/mesher/edge_order.h>
 #include <pent/text_reader.h>
@@ -171,11 +172,11 @@ std::vector<std::array<std::uint32_t, 3>> cyclic_triangles(const Simplices<Dim +
         text += (i == 0 ? "" : ", ") + std::to_string(cycles[i][0]) + " -> "
                 + std::to_string(cycles[i][1]) + " -> " + std::to_string(cycles[i][2]);
     }
-    throw Error("edge directions: " + std::to_string(cycles.size())
-                + (cycles.size() == 1 ? " triangle is a directed cycle: "
-                                      : " triangles are directed cycles: ")
-                + text + (cycles.size() > kListed ? ", ..." : "")
-                + "; turn one edge of each, no such prism can be cut");
+    throw Error(
+        "edge directions: "
+        + counted(cycles.size(), "triangle is a directed cycle", "triangles are directed cycles")
+        + ": " + text + (cycles.size() > kListed ? ", ..." : "")
+        + "; turn one edge of each, no such prism can be cut");
 }
 
 }  // namespace

@@ -36,8 +36,8 @@ void GmshArrays::read(const std::string& section) {
     read_values(header, place == nullptr ? other : *place);
     const std::string end = "$End" + section.substr(1);
     if (text_.next_word(end) != end) {
-        text_.fail("more or less than the " + std::to_string(header.count)
-                   + " values that its head says; expected " + end);
+        text_.fail("more or less than the " + counted(header.count, "value", "values")
+                   + " that its head says; expected " + end);
     }
 }
 
@@ -50,9 +50,8 @@ void GmshArrays::finish(FileGrid& grid) {
     for (const bool is_of_nodes : {true, false}) {
         for (Collected& one : is_of_nodes ? of_nodes_ : of_elements_) {
             if (const std::size_t times = one.others.size(); times > 0) {
-                left_out_.push_back(
-                    "array " + one.name + " at "
-                    + counted(static_cast<std::int64_t>(times), "other time", "other times"));
+                left_out_.push_back("array " + one.name + " at "
+                                    + counted(times, "other time", "other times"));
             }
             (is_of_nodes ? grid.point_arrays : grid.cell_arrays)
                 .push_back(in_order(std::move(one.name), one.components, one.numbers, one.values));
@@ -81,8 +80,8 @@ GmshArrays::Header GmshArrays::read_header() {
         whole.push_back(text_.integer(text_.next_word("a whole number"), "a whole number"));
     }
     if (whole.size() < 3) {
-        text_.fail(std::to_string(whole.size())
-                   + " whole numbers; expected 3 or more: the step, the numbers of a value, and how"
+        text_.fail(counted(whole.size(), "whole number", "whole numbers")
+                   + "; expected 3 or more: the step, the numbers of a value, and how"
                      " many values there are");
     }
     header.moment.first = whole[0];

@@ -183,8 +183,7 @@ void LegacyArrays::read_field(std::optional<std::int64_t> rows, std::vector<File
 }
 
 void LegacyArrays::skip_metadata() {
-    while (!text_.rest().empty()
-           && take_line().find_first_not_of(" \t\r\n") != std::string_view::npos) {
+    while (take_line().find_first_not_of(" \t\r\n") != std::string_view::npos) {
     }
 }
 
@@ -223,9 +222,6 @@ FileArray LegacyArrays::read_values(const std::string& name,
                                     std::string_view written_type) {
     const std::string type = in_small_letters(written_type);
     FileArray array{name, components, {}};
-    if (components > text_.size()) {
-        text_.fail(std::to_string(components) + " components; the file has fewer bytes");
-    }
     const std::int64_t count = rows * components;
     if (type == "bit" && !numbers_.is_text()) {
         for (std::int64_t i = 0; i < count; i += 8) {

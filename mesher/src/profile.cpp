@@ -28,7 +28,8 @@ Layer<4> read_layer(TextReader& text) {
         values[count++] = text.number(word, "a number of a layer");
     }
     if (count != 2 && count != 5 && count != 11) {
-        text.fail(std::to_string(count) + " numbers; expected w scale [x y z [xy xz xw yz yw zw]]");
+        text.fail(counted(count, "number", "numbers")
+                  + "; expected w scale [x y z [xy xz xw yz yw zw]]");
     }
     if (values[1] < 0) {
         text.fail("scale " + std::to_string(values[1]) + "; expected 0 or more");
@@ -56,8 +57,7 @@ std::vector<Layer<4>> read_profile(const std::filesystem::path& path) {
         layers.push_back(read_layer(text));
     }
     if (layers.size() < 2) {
-        text.fail(counted(static_cast<std::int64_t>(layers.size()), "layer", "layers")
-                  + "; expected 2 or more");
+        text.fail(counted(layers.size(), "layer", "layers") + "; expected 2 or more");
     }
     if (layers.size() == 2 && layers[0].is_point() && layers[1].is_point()) {
         text.fail("two points and nothing between them");

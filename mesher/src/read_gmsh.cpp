@@ -2,6 +2,7 @@
 #include "number_reader.h"
 #include "tet_readers.h"
 
+#include <pent/counted.h>
 #include <pent/formatted.h>
 
 #include <algorithm>
@@ -172,7 +173,7 @@ private:
             return;
         }
         if (size != 8) {
-            text_.fail("numbers of " + std::to_string(size) + " bytes; expected 8");
+            text_.fail("numbers of " + counted(size, "byte", "bytes") + "; expected 8");
         }
         // A one, by which the order of bytes shows.
         constexpr std::int64_t kSwapped = 1 << 24;

@@ -2,9 +2,11 @@
 
 #include <pent/text_reader.h>
 
+#include <algorithm>
 #include <array>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace pent::mesher {
@@ -67,14 +69,15 @@ std::int64_t next_integer(TextReader& text) {
     return text.integer(text.next_word("a whole number"), "a whole number");
 }
 
-void read_vertices(TextReader& text, CellSoup& soup) {
+// @param labels  Gets that of each, which is 0 for none.
+void read_vertices(TextReader& text, CellSoup& soup, std::vector<double>& labels) {
     const std::int64_t count = text.count(text.next_word("a count"), "the number of vertices");
     for (std::int64_t i = 0; i < count; ++i) {
         Eigen::Vector3d point;
         for (double& coordinate : point) {
             coordinate = next_number(text);
         }
-        static_cast<void>(next_number(text));  // a label
+        labels.push_back(next_number(text));
         soup.points.push_back(point);
     }
 }
@@ -99,21 +102,13 @@ void read_section(TextReader& text, const Section& section, CellSoup& soup) {
     }
 }
 
-}  // namespace
-
-CellSoup read_medit(const std::filesystem::path& path) {
-    TextReader text(path);
-    if (!text.next_line() || text.word() != "MeshVersionFormatted") {
-        text.fail("no MeshVersionFormatted at the start; expected a Medit file as text");
-    }
-    static_cast<void>(next_integer(text));
-    CellSoup soup;
-    soup.has_labels = true;
+// All sections up to the end.
+void read_sections(TextReader& text, CellSoup& soup, std::vector<double>& vertex_labels) {
     while (true) {
         std::string_view keyword = text.word();
         if (keyword.empty()) {
             if (!text.next_line()) {
-                return soup;
+                return;
             }
             keyword = text.word();
         }
@@ -123,15 +118,34 @@ CellSoup read_medit(const std::filesystem::path& path) {
                 text.fail("dimension " + std::to_string(dimension) + "; expected 3");
             }
         } else if (keyword == "Vertices") {
-            read_vertices(text, soup);
+            read_vertices(text, soup, vertex_labels);
         } else if (const Section* section = find_section(keyword)) {
             read_section(text, *section, soup);
         } else if (keyword == "End") {
-            return soup;
+            return;
         } else {
             text.fail("section \"" + std::string(keyword) + "\"; expected one of Medit's");
         }
     }
+}
+
+}  // namespace
+
+FileGrid read_medit(const std::filesystem::path& path) {
+    TextReader text(path);
+    if (!text.next_line() || text.word() != "MeshVersionFormatted") {
+        text.fail("no MeshVersionFormatted at the start; expected a Medit file as text");
+    }
+    static_cast<void>(next_integer(text));
+    FileGrid grid;
+    grid.soup.has_labels = true;
+    FileArray labels{"vertex_label", 1, {}};
+    read_sections(text, grid.soup, labels.values);
+    if (std::any_of(labels.values.begin(), labels.values.end(),
+                    [](double label) { return label != 0; })) {
+        grid.point_arrays.push_back(std::move(labels));
+    }
+    return grid;
 }
 
 }  // namespace pent::mesher

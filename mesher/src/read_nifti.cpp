@@ -1,6 +1,7 @@
 #include "gzip.h"
 #include "read_image.h"
 
+#include <pent/counted.h>
 #include <pent/error.h>
 #include <pent/formatted.h>
 
@@ -115,7 +116,8 @@ Image read_nifti(std::string_view bytes, const std::string& name) {
         has_four = header.at<std::int16_t>(42 + 2 * static_cast<std::size_t>(axis)) == 1;
     }
     if (!has_four) {
-        header.fail(formatted("an image of %d axes; expected 4, as x y z and time", axes));
+        header.fail("an image of " + counted(axes, "axis", "axes")
+                    + "; expected 4, as x y z and time");
     }
     Image image;
     image.name = name;

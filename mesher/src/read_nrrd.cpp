@@ -1,6 +1,7 @@
 #include "gzip.h"
 #include "read_image.h"
 
+#include <pent/counted.h>
 #include <pent/error.h>
 #include <pent/formatted.h>
 #include <pent/real_text.h>
@@ -181,10 +182,9 @@ void take_text(std::string_view text, Image& image) {
 Image read_nrrd(std::string_view bytes, const std::string& name) {
     const NrrdHeader header = read_header(bytes, name);
     if (header.dimension != 4 || header.sizes.size() != 4) {
-        throw Error(name
-                    + formatted(": an image of %d axes, with %zu sizes; expected 4, as x y z and "
-                                "time",
-                                header.dimension, header.sizes.size()));
+        throw Error(name + ": an image of " + counted(header.dimension, "axis", "axes") + ", with "
+                    + counted(header.sizes.size(), "size", "sizes")
+                    + "; expected 4, as x y z and time");
     }
     Image image;
     image.name = name;

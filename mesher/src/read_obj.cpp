@@ -1,5 +1,6 @@
 #include "surface_readers.h"
 
+#include <pent/counted.h>
 #include <pent/text_reader.h>
 
 #include <string>
@@ -25,7 +26,8 @@ std::vector<std::uint32_t> read_polygon(TextReader& text, std::int64_t points) {
         polygon.push_back(read_corner(text, word, points));
     }
     if (polygon.size() < 3) {
-        text.fail("a face with " + std::to_string(polygon.size()) + " corners; expected 3 or more");
+        text.fail("a face with " + counted(polygon.size(), "corner", "corners")
+                  + "; expected 3 or more");
     }
     return polygon;
 }

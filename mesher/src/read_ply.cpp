@@ -1,6 +1,7 @@
 #include "number_reader.h"
 #include "surface_readers.h"
 
+#include <pent/counted.h>
 #include <pent/error.h>
 #include <pent/ply_elements.h>
 
@@ -20,8 +21,7 @@ struct Header {
     std::vector<PlyElement> elements;
 };
 
-PlyType read_type(TextReader& text) {
-    const std::string_view word = text.word();
+PlyType type_called(std::string_view word, const TextReader& text) {
     if (const std::optional<PlyType> type = ply_type_called(word)) {
         return *type;
     }
@@ -45,12 +45,12 @@ Encoding read_encoding(TextReader& text) {
 
 PlyProperty read_property(TextReader& text) {
     PlyProperty property;
-    TextReader ahead = text;  // the first word is either "list" or a type
-    if (ahead.word() == "list") {
-        static_cast<void>(text.word());
-        property.count_type = read_type(text);
+    std::string_view word = text.word();
+    if (word == "list") {
+        property.count_type = type_called(text.word(), text);
+        word = text.word();
     }
-    property.type = read_type(text);
+    property.type = type_called(word, text);
     property.name = text.word();
     return property;
 }
@@ -206,9 +206,6 @@ TriangleSoup read_ply(const std::filesystem::path& path) {
     SoupBuilder builder;
     std::vector<std::uint32_t> polygon;
     for (const PlyElement& element : header.elements) {
-        if (element.properties.empty()) {
-            continue;  // rows without a byte: nothing to read, whatever their number
-        }
         if (element.name == "tristrips") {
             values.fail("triangles in strips; expected faces: write the file with faces");
         }
@@ -224,8 +221,8 @@ TriangleSoup read_ply(const std::filesystem::path& path) {
             if (polygon.size() >= 3) {
                 builder.add_polygon(polygon);
             } else if (!polygon.empty()) {
-                values.fail("a face with " + std::to_string(polygon.size())
-                            + " corners; expected 3 or more");
+                values.fail("a face with " + counted(polygon.size(), "corner", "corners")
+                            + "; expected 3 or more");
             }
         }
     }

@@ -110,8 +110,8 @@ TriangleSoup read_stl(const std::filesystem::path& path) {
         const std::size_t length = binary_length(bytes);
         throw Error(text.name() + ": " + std::to_string(bytes.size()) + " bytes; expected "
                     + std::to_string(length) + " for the "
-                    + std::to_string((length - kHeader) / kTriangle)
-                    + " triangles that a binary STL file announces; it "
+                    + counted((length - kHeader) / kTriangle, "triangle", "triangles")
+                    + " that a binary STL file announces; it "
                     + (bytes.size() < length ? "may have been cut off" : "goes on behind them")
                     + ", write it again");
     }

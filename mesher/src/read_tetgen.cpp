@@ -1,9 +1,13 @@
 #include "number_reader.h"
 #include "tet_readers.h"
 
+#include <pent/counted.h>
+#include <pent/input_path.h>
+#include <pent/mesher/tetgen_files.h>
 #include <pent/text_reader.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <string>
 #include <utility>
@@ -12,6 +16,9 @@
 namespace pent::mesher {
 
 namespace {
+
+constexpr const char* kNodes = ".node";
+constexpr const char* kElements = ".ele";
 
 void next_line(TextReader& text, const char* expected) {
     if (!text.next_line()) {
@@ -94,7 +101,7 @@ void read_elements(TextReader& text, std::int64_t first, FileGrid& grid) {
     const std::int64_t corners = text.integer(text.word(), "the number of corners");
     const std::int64_t attributes = optional_count(text, "the number of attributes");
     if (corners != 4 && corners != 10) {
-        text.fail(std::to_string(corners) + " corners; expected 4 or 10");
+        text.fail(counted(corners, "corner", "corners") + "; expected 4 or 10");
     }
     CellSoup& soup = grid.soup;
     const auto points = static_cast<std::int64_t>(soup.points.size());
@@ -115,11 +122,26 @@ void read_elements(TextReader& text, std::int64_t first, FileGrid& grid) {
 
 }  // namespace
 
+std::filesystem::path other_tetgen_file(const std::filesystem::path& path) {
+    const std::string ending = format_of(path, "");
+    if (ending != kNodes && ending != kElements) {
+        return {};
+    }
+    std::string other = ending == kNodes ? kElements : kNodes;
+    if (path.extension().string() != ending) {
+        std::transform(other.begin(), other.end(), other.begin(),
+                       [](unsigned char c) { return static_cast<char>(std::toupper(c)); });
+    }
+    return std::filesystem::path(path).replace_extension(other);
+}
+
 FileGrid read_tetgen(const std::filesystem::path& path) {
+    const std::filesystem::path other = other_tetgen_file(path);
+    const bool has_nodes = format_of(path, "") == kNodes;
     FileGrid grid;
-    TextReader nodes(std::filesystem::path(path).replace_extension(".node"));
+    TextReader nodes(has_nodes ? path : other);
     const std::int64_t first = read_nodes(nodes, grid);
-    TextReader elements(std::filesystem::path(path).replace_extension(".ele"));
+    TextReader elements(has_nodes ? other : path);
     read_elements(elements, first, grid);
     return grid;
 }

@@ -31,7 +31,7 @@ FileGrid cells_alone(const std::filesystem::path& path) {
 constexpr std::array<std::pair<std::string_view, Reader>, 5> kReaders = {
     {{".node", read_tetgen},
      {".ele", read_tetgen},
-     {".mesh", cells_alone<read_medit>},
+     {".mesh", read_medit},
      {".msh", read_gmsh},
      {".tobj", cells_alone<read_tobj>}}};
 
@@ -88,7 +88,8 @@ std::vector<VertexField> fields_of(const std::vector<FileArray>& arrays,
 void carry_arrays(const FileGrid& grid, const NumberedTetrahedra& numbered, TetrahedraFile& file) {
     std::vector<std::string> left_out = grid.left_out;
     const CarriedArrays of_points = carried_point_arrays(grid, left_out);
-    const CarriedArrays of_cells = carried_cell_arrays(grid, file.region_array, left_out);
+    const CarriedArrays of_cells =
+        carried_cell_arrays(grid, of_points, file.region_array, left_out);
     file.extras.vertex_fields =
         fields_of(grid.point_arrays, of_points, numbers_of(numbered.points, grid.point_numbers),
                   "points", left_out);

@@ -189,9 +189,10 @@ private:
         const std::int64_t count = arrays_.line_count();
         const std::int64_t expected = is_of_points ? point_count() : grid_.cell_count;
         if (count != expected) {
-            text_.fail("data of " + std::to_string(count)
-                       + (is_of_points ? " points, of " : " cells, of ")
-                       + std::to_string(expected));
+            text_.fail("data of "
+                       + (is_of_points ? counted(count, "point", "points")
+                                       : counted(count, "cell", "cells"))
+                       + ", of " + std::to_string(expected));
         }
     }
 

@@ -77,6 +77,14 @@ Repaired try_light(const Surface& surface,
     if (is_usable(left)) {
         return mended(surface, closed, Repair::Light, report);
     }
+    if (left.duplicate.count > 0) {
+        // A triangle that hung on the surface by an edge was closed by its other side: both go.
+        Repaired without_fins =
+            mended(surface, drop_useless_triangles(closed), Repair::Light, report);
+        if (is_usable(without_fins.after)) {
+            return without_fins;
+        }
+    }
     if (left.components > 1 && left.border_edges.count == 0) {
         Repaired united = mended(surface,
                                  attempt(closed, "uniting bodies that cross", options, failures,
@@ -140,6 +148,9 @@ Repaired repair(const Surface& surface, const RepairOptions& options) {
     }
     std::string failures;
     const Surface closed = without_holes(surface, options, failures);
+    if (closed.triangle_count() == 0) {
+        throw Error("no triangle of the surface has an area; it encloses no volume");
+    }
     if (options.repair != Repair::Wrap) {
         Repaired light = try_light(surface, closed, options, report, failures);
         light.failures = failures;

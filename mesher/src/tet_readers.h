@@ -27,7 +27,7 @@ struct NumberedTetrahedra {
 /// what is damaged, and allocates no more than the size of the file bears out.
 
 [[nodiscard]] FileGrid read_tetgen(const std::filesystem::path& path);
-[[nodiscard]] CellSoup read_medit(const std::filesystem::path& path);
+[[nodiscard]] FileGrid read_medit(const std::filesystem::path& path);
 [[nodiscard]] FileGrid read_gmsh(const std::filesystem::path& path);
 [[nodiscard]] CellSoup read_tobj(const std::filesystem::path& path);
 

@@ -1,6 +1,7 @@
 #include "vtk_data.h"
 
 #include <pent/base64.h>
+#include <pent/counted.h>
 #include <pent/error.h>
 #include <pent/real_text.h>
 
@@ -97,11 +98,7 @@ std::string inflated_bytes(const Source& source,
     }
     const std::vector<std::uint64_t> sizes = header_words(start, 3, encoding);
     const std::uint64_t blocks = sizes[0];
-    if (blocks == 0) {
-        return {};
-    }
-    if (blocks > encoding.file_size / word || sizes[1] > encoding.file_size * kMaxDeflation
-        || sizes[2] > sizes[1]) {
+    if (blocks > encoding.file_size / word || sizes[2] > sizes[1]) {
         fail_cut(array, encoding);
     }
     const std::size_t header = (3 + blocks) * word;
@@ -192,7 +189,8 @@ std::vector<Value> from_ascii(const XmlElement& array, const VtkEncoding& encodi
     std::vector<Value> values;
     const char* at = array.text.data();
     const char* const end = at + array.text.size();
-    const auto is_space = [](char c) { return c == ' ' || c == '\t' || c == '\n' || c == '\r'; };
+    // XML has turned the ends of lines into '\n'.
+    const auto is_space = [](char c) { return c == ' ' || c == '\t' || c == '\n'; };
     while (true) {
         while (at != end && is_space(*at)) {
             ++at;
@@ -286,7 +284,7 @@ std::vector<Value> values_of(const XmlElement& array,
             : from_ascii<Value>(array, encoding);
     if (std::cmp_not_equal(values.size(), count)) {
         fail(array, encoding,
-             std::to_string(values.size()) + " numbers, expected " + std::to_string(count)
+             counted(values.size(), "number", "numbers") + ", expected " + std::to_string(count)
                  + ": the file is cut?");
     }
     return values;

@@ -2,6 +2,7 @@
 
 #include "xml_file.h"
 
+#include <pent/counted.h>
 #include <pent/error.h>
 #include <pent/formatted.h>
 #include <pent/input_path.h>
@@ -149,8 +150,8 @@ void add_cell(FileGrid& grid,
     if (corners.size() < needed) {
         CellCounts one{};
         one[static_cast<std::size_t>(kind)] = 1;
-        fail(list_counts(one, kind, kind) + " with " + std::to_string(corners.size())
-             + " corners; expected " + std::to_string(needed));
+        fail(list_counts(one, kind, kind) + " with " + counted(corners.size(), "corner", "corners")
+             + "; expected " + std::to_string(needed));
     }
     std::vector<std::uint32_t> nodes;
     for (std::size_t i = 0; i < corners.size() && needed > 0; ++i) {

@@ -111,6 +111,7 @@ TEST(FourOff, FacesOutwardForReadersThatLookAtTheFirstTwoFaces) {
         text >> count >> face[0] >> face[1] >> face[2];
     }
     EXPECT_EQ(faces, 32U);  // each once
+    EXPECT_EQ(edges, 0U);   // not counted
     for (std::size_t c = 0; c < cells; ++c) {
         std::array<std::size_t, 4> cell{};
         text >> count >> cell[0] >> cell[1] >> cell[2] >> cell[3];
@@ -144,6 +145,8 @@ TEST(FourOff, NamesTheLineOfWhatIsWrong) {
         error_as("a.off", "4OFF\n3 1 0 0\n0 0 0 0\n1 0 0 0\n0 1 0 0\n2 0 1\n"),
         {"line 6: ", "found 2 of them", "corners of a face, at least 3"});
     pent::test::expect_contains(error_as("a.off", "ply\n"), {"line 1: ", "expected 4OFF"});
+    pent::test::expect_contains(error_as("a.off", "abcdefghijklmnopqrstuvwxyz\n"),
+                                {"line 1: ", "found \"abcdefghijklmnopqrst\", expected 4OFF"});
     pent::test::expect_contains(error_as("a.off", "4OFF\n5 0 0 0\n0 0 0 0\n1 x 0 0\n"),
                                 {"line 4: ", "\"x\""});
     pent::test::expect_contains(error_as("a.off", "4OFF\n900000000 0 0 0\n"),

@@ -261,6 +261,44 @@ TEST(Exchange, ListsTheEndingsForOneThatItDoesNotKnow) {
     EXPECT_EQ(format_of("A.G4B").name, "G4MF");
 }
 
+// In the same words whichever reader it would be.
+TEST(Exchange, SaysThatThereIsNoFileOrAFolder) {
+    const pent::test::TempFolder folder;
+    for (const Format& format : formats()) {
+        if (format.read == nullptr) {
+            continue;
+        }
+        const std::string name = "a" + std::string(format.endings[0]);
+        const auto message = [&] {
+            return pent::test::error_of([&] { static_cast<void>(read(folder / name)); });
+        };
+        EXPECT_TRUE(message().ends_with(name + ": no such file")) << message();
+        std::filesystem::create_directory(folder / name);
+        EXPECT_TRUE(message().ends_with(name + ": is a folder; give a file")) << message();
+    }
+}
+
+// A closed surface of which one tetrahedron is flat, as a point was put on a side of it: the body
+// has a flat cell there, wherever its middle is.
+TEST(Exchange, RefusesABodyWithAFlatCell) {
+    TetSurface flat = sixteen_cell();
+    const Eigen::Vector<std::uint32_t, 4> whole = flat.tetrahedra.col(0);
+    flat.points.conservativeResize(4, 9);
+    flat.points.col(8) =
+        (flat.points.col(whole[1]) + flat.points.col(whole[2]) + 2 * flat.points.col(whole[3])) / 4;
+    flat.tetrahedra.conservativeResize(4, 19);
+    for (int replaced = 0; replaced < 4; ++replaced) {
+        Eigen::Vector<std::uint32_t, 4> part = whole;
+        part[replaced] = 8;
+        flat.tetrahedra.col(replaced == 0 ? 0 : 15 + replaced) = part;
+    }
+    ASSERT_TRUE(check(flat).is_oriented());
+    EXPECT_NEAR(enclosed_hypervolume(flat), 2.0 / 3, 1e-14);
+    pent::test::expect_contains(
+        pent::test::error_of([&] { static_cast<void>(text_as("a.pent", flat)); }),
+        {"a.pent: pentachoron 0: degenerate"});
+}
+
 TEST(Exchange, LeavesNothingBehindThatItCouldNotWrite) {
     const pent::test::TempFolder folder;
     TetSurface open = sixteen_cell();

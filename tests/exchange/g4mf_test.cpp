@@ -5,6 +5,7 @@
 #include <pent/error.h>
 
 #include <cstring>
+#include <limits>
 #include <nlohmann/json.hpp>
 #include <type_traits>
 #include <utility>
@@ -121,6 +122,10 @@ TEST(G4mf, HasDoublesWhereFloatsAreTooSmall) {
             read_as("a.g4b", text_as("a.g4b", surface, {.in_double = true, .frames = frames})));
         EXPECT_EQ(again.points, surface.points);
     }
+    TetSurface largest = near;  // that a float holds
+    largest.points *= double{std::numeric_limits<float>::max()};
+    EXPECT_EQ(std::get<TetSurface>(read_as("a.g4b", text_as("a.g4b", largest))).points,
+              largest.points);
 }
 
 TEST(G4mf, AloneHasFrames) {
@@ -176,6 +181,28 @@ TEST(G4mf, InChunksHasTheLayoutOfTheFormat) {
     std::memcpy(&size, file.data() + 24, 8);
     const Json json = Json::parse(file.substr(32, size));
     EXPECT_EQ(json["buffers"], Json::parse(R"([{"byteLength": 160, "chunk": 1}])"));
+}
+
+// What has the value that the format gives what is not there, and a tab a level.
+TEST(G4mf, LeavesOutWhatMayBeLeftOut) {
+    const std::string text =
+        text_as("a.g4tf", five_cell(), {.frames = {{"larger", 2 * five_cell().points}}});
+    EXPECT_TRUE(text.starts_with("{\n\t\"asset\": {\n\t\t\"dimension\": 4,\n"));
+    const Json json = Json::parse(text);
+    EXPECT_EQ(json["bufferViews"][0], Json::parse(R"({"buffer": 0, "byteLength": 80})"));
+    EXPECT_EQ(json["accessors"][2], Json::parse(R"({"bufferView": 2, "componentType": "uint32"})"));
+}
+
+// Chunks end at multiples of 16 bytes, wherever what is in them ends.
+TEST(G4mf, HasChunksOfAnySize) {
+    std::string by("x");
+    for (; by.size() < 34; by += 'x') {
+        const std::string file = text_as("a.g4b", five_cell(), {.created_by = by});
+        std::uint64_t size = 0;
+        std::memcpy(&size, file.data() + 24, 8);
+        EXPECT_EQ(file.find("BLOB"), 32 + (size + 15) / 16 * 16);
+        test::expect_same_surface(read_as("a.g4b", file), five_cell(), 0);
+    }
 }
 
 TEST(G4mf, IsInChunksOrTextAsTheEndingSaysInLettersOfAnySize) {
@@ -254,6 +281,14 @@ TEST(G4mf, IsReadWithoutWhatMayBeLeftOut) {
     json["bufferViews"][1] = {{"buffer", 1}, {"byteLength", corners.size()}};
     json["accessors"][1]["componentType"] = "uint8";
     expect_the_same(json);
+    // A surface without tetrahedra may begin where the buffer ends.
+    json = full;
+    const std::size_t size = json["buffers"][0]["byteLength"].get<std::size_t>();
+    json["bufferViews"].push_back({{"buffer", 0}, {"byteLength", 0}, {"byteOffset", size}});
+    json["accessors"].push_back(
+        {{"bufferView", 2}, {"componentType", "uint32"}, {"vectorSize", 4}});
+    json["meshes"][0]["surfaces"].push_back({{"simplexes", 2}});
+    expect_the_same(json);
     const std::string binary = text_as("a.g4b", five_cell());
     const std::string key = R"(,"chunk":1)";  // the first buffer is the first chunk behind the JSON
     std::string without = binary;
@@ -299,7 +334,7 @@ TEST(G4mf, IsRefusedWithWhatIsWrong) {
     Json scalars = good;
     scalars["accessors"][0].erase("vectorSize");
     pent::test::expect_contains(error_as("a.g4tf", scalars.dump()),
-                                {"accessor 0: elements of 1 numbers; expected 4"});
+                                {"accessor 0: elements of 1 number; expected 4"});
     Json second = good;  // a second mesh has the indices of the first one and a point less
     second["bufferViews"].push_back({{"buffer", 0}, {"byteLength", 64}});
     second["accessors"].push_back(
@@ -357,6 +392,23 @@ TEST(G4mf, IsRefusedWithWhatIsWrongInItsChunks) {
     pent::test::expect_contains(error_with(blob + 4, 1), {"chunk 1 is compressed"});
     pent::test::expect_contains(error_with(blob + 8, static_cast<char>(binary[blob + 8] + 1)),
                                 {"chunk 1 has 161 bytes; the file ends before"});
+    std::string other = binary;
+    other.replace(other.find("\"chunk\":1"), 9, "\"chunk\":2");
+    pent::test::expect_contains(error_as("a.g4b", other), {"buffer 0: chunk 2 of 2"});
+    // One without bytes is one, also at the end of the file.
+    other.replace(other.find("\"chunk\":2"), 9, "\"chunk\":3");
+    other += "BLOB" + std::string(12, '\0');
+    const auto longer = static_cast<std::uint64_t>(other.size());
+    std::memcpy(other.data() + 8, &longer, sizeof longer);
+    pent::test::expect_contains(error_as("a.g4b", other), {"buffer 0: chunk 3 of 3"});
+    for (const std::string json : {"", "{}"}) {  // with 32 bytes and with 34
+        std::string bare = binary.substr(0, 32) + json;
+        const auto bytes = static_cast<std::uint64_t>(bare.size());
+        const auto of_json = static_cast<std::uint64_t>(json.size());
+        std::memcpy(bare.data() + 8, &bytes, sizeof bytes);
+        std::memcpy(bare.data() + 24, &of_json, sizeof of_json);
+        pent::test::expect_contains(error_as("a.g4b", bare), {"a.g4b: is no G4MF file"});
+    }
     std::string none = binary.substr(0, 16);
     for (const std::size_t size : {none.size(), none.size() + 8}) {
         none.resize(size, ' ');

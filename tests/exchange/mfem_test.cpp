@@ -220,6 +220,10 @@ TEST(Mfem, TurnsCellsOverThatAreNegative) {
 TEST(Mfem, NamesTheLineOfWhatIsWrong) {
     pent::test::expect_contains(error_as("a.mesh", "MeshVersionFormatted 2\n"),
                                 {"line 1: ", "found \"MeshVersionFormatted\", expected \"MFEM\""});
+    pent::test::expect_contains(error_as("a.mesh", "abcdefghijklmnopqrstuvwxyz\n"),
+                                {"found \"abcdefghijklmnopqrst\", expected \"MFEM\""});
+    pent::test::expect_contains(error_as("a.mesh", "MFEM mesh v1.0\ndimension\n1\n"),
+                                {"a mesh of 1 dimension; expected 4"});
     pent::test::expect_contains(error_as("a.mesh", "MFEM mesh v1.0\ndimension\n3\n"),
                                 {"line 3: ", "3 dimensions"});
     std::string text = text_as("a.mesh", Body{layered()});

@@ -3,6 +3,7 @@
 #include <pent/error.h>
 #include <pent/facets.h>
 
+#include <algorithm>
 #include <array>
 #include <random>
 #include <utility>
@@ -44,7 +45,17 @@ TEST(Weld, GivesTetrahedraAtTheSamePlacesTheSamePoints) {
     const WeldedSurface welded = weld(apart);
     EXPECT_EQ(welded.merged_points, 16 * 4 - 8);
     EXPECT_EQ(welded.degenerate, 0);
-    EXPECT_EQ(welded.surface.points.cols(), 8);
+    ASSERT_EQ(welded.surface.points.cols(), 8);
+    Eigen::Index next = 0;  // the first point at each place stays, in the order that they have
+    for (Eigen::Index p = 0; p < apart.points.cols(); ++p) {
+        bool is_first = true;
+        for (Eigen::Index before = 0; before < p; ++before) {
+            is_first = is_first && apart.points.col(before) != apart.points.col(p);
+        }
+        if (is_first) {
+            EXPECT_EQ(welded.surface.points.col(next++), apart.points.col(p));
+        }
+    }
     EXPECT_TRUE(check(welded.surface).is_oriented());
     EXPECT_NEAR(enclosed_hypervolume(welded.surface), 2.0 / 3, 1e-14);
 }
@@ -67,11 +78,13 @@ TEST(Weld, LeavesWhatIsWeldedAsItIs) {
     EXPECT_EQ(welded.surface.tetrahedra, sixteen_cell().tetrahedra);
 }
 
-// Whichever of its tetrahedra are turned over, and whether all of it is inside out.
+// Whichever of its tetrahedra are turned over, whether all of it is inside out, and wherever it is:
+// far away each tetrahedron spans much more with the origin than the body has, in small integers.
 TEST(Orient, MakesTheSameOutsideOfAnyMix) {
     std::mt19937 random(1);
     for (int trial = 0; trial < 20; ++trial) {
         TetSurface mixed = sixteen_cell();
+        mixed.points.colwise() += trial % 3 * Eigen::Vector4d(100, -300, 200, 50);
         for (Eigen::Index t = 0; t < 16; ++t) {
             if (trial == 0 || random() % 2 == 0) {
                 std::swap(mixed.tetrahedra(0, t), mixed.tetrahedra(1, t));
@@ -79,7 +92,8 @@ TEST(Orient, MakesTheSameOutsideOfAnyMix) {
         }
         orient(mixed, "mixed");
         EXPECT_TRUE(check(mixed).is_oriented());
-        EXPECT_NEAR(enclosed_hypervolume(mixed), 2.0 / 3, 1e-14);
+        // Sixteen determinants of up to 2000, each rounded a few times.
+        EXPECT_NEAR(enclosed_hypervolume(mixed), 2.0 / 3, trial % 3 == 0 ? 1e-14 : 1e-10);
     }
 }
 
@@ -102,6 +116,21 @@ TEST(Orient, LeavesACavityWhereNeighborsAgree) {
     }
     orient(hollow, "hollow");
     EXPECT_NEAR(enclosed_hypervolume(hollow), expected, 1e-14);
+}
+
+// Two tetrahedra with the same corners, which enclose nothing: only neighbors can disagree.
+TEST(Orient, LeavesWhatEnclosesNothingAsItIs) {
+    TetSurface pillow{five_cell().points, Simplices<4>(4, 2)};
+    pillow.tetrahedra << 1, 1, 2, 2, 3, 4, 4, 3;
+    ASSERT_TRUE(check(pillow).is_oriented());
+    for (const bool is_turned : {false, true}) {
+        TetSurface after = pillow;
+        if (is_turned) {
+            std::swap(after.tetrahedra(2, 1), after.tetrahedra(3, 1));
+        }
+        orient(after, "pillow");
+        EXPECT_EQ(after.tetrahedra, pillow.tetrahedra);
+    }
 }
 
 // It has no inside to turn it by.
@@ -149,6 +178,18 @@ TEST(ConeOf, IsTheBodyWithThatBoundary) {
         EXPECT_EQ(back.points, surface.points);
         EXPECT_TRUE(check(back).is_oriented());
         EXPECT_NEAR(enclosed_hypervolume(back), enclosed_hypervolume(surface), 1e-14);
+    }
+}
+
+// The largest ball inside of the 5-cell touches four planes x = 0 and the plane x + y + z + w = 1:
+// (1 - 4 r) / 2 = r. Depths are tried that grow by half, so that the middle has two thirds of it.
+TEST(ConeOf, HasItsMiddleDeepInside) {
+    for (const double shift : {0.0, -0.5, 100.0}) {  // -0.5: as far to either side of 0
+        TetSurface cell = five_cell();
+        cell.points.array() += shift;
+        const Eigen::Vector4d middle =
+            cone_of(cell, "5-cell").positions.col(5) - Eigen::Vector4d::Constant(shift);
+        EXPECT_GT(std::min(middle.minCoeff(), (1 - middle.sum()) / 2), 2.0 / 3 / 6);
     }
 }
 

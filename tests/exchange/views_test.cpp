@@ -1,5 +1,6 @@
 #include "polytopes.h"
 
+#include <algorithm>
 #include <sstream>
 #include <vector>
 
@@ -44,7 +45,10 @@ void expect_words(std::istream& text, std::initializer_list<const char*> words) 
 }
 
 TEST(LegacyVtk, HasTheBoundaryWithWAsAScalar) {
-    std::istringstream text(text_as("a.vtk", with_digits()));
+    const std::string all = text_as("a.vtk", with_digits());
+    // A line for each point, twice, for each tetrahedron and its type, and ten others.
+    EXPECT_EQ(std::count(all.begin(), all.end(), '\n'), 2 * 8 + 2 * 16 + 10);
+    std::istringstream text(all);
     std::string line;
     std::getline(text, line);
     EXPECT_EQ(line, "# vtk DataFile Version 3.0");

@@ -104,7 +104,8 @@ TEST(ReadMovingMesh, CarriesTheNumbersOfAMeshThatRan) {
                             {"heat", Eigen::MatrixXd::Zero(1, mesh.vertex_count())},
                             {"flow", mesh.positions}};
     extras.cell_fields = {{"stiffness", Eigen::RowVectorXd::LinSpaced(mesh.cell_count(), 1, 2)},
-                          {"lean", Eigen::MatrixXd::Zero(3, mesh.cell_count())}};
+                          {"lean", Eigen::MatrixXd::Zero(3, mesh.cell_count())},
+                          {"heat", Eigen::MatrixXd::Constant(1, mesh.cell_count(), -4)}};
     const std::uint32_t crc = write_mesh<3>(folder / "meshes" / "a.pent", mesh, {}, extras);
     for (int i = 0; i < 2; ++i) {
         Frame<3> frame;
@@ -121,8 +122,10 @@ TEST(ReadMovingMesh, CarriesTheNumbersOfAMeshThatRan) {
     EXPECT_EQ(moving.vertex_fields[0].name, "heat");
     EXPECT_EQ(moving.vertex_fields[0].values[1](0, 3), 6);  // of the frame, not of the mesh
     EXPECT_EQ(moving.vertex_fields[1].name, "age");
-    ASSERT_EQ(moving.cell_fields.size(), 1U);
+    ASSERT_EQ(moving.cell_fields.size(), 2U);
     EXPECT_EQ(moving.cell_fields[0].name, "stiffness");
+    EXPECT_EQ(moving.cell_fields[1].name, "heat_");  // beside that of the vertices
+    EXPECT_EQ(moving.cell_fields[1].values[1], extras.cell_fields[2].values);
     for (int frame = 0; frame < 2; ++frame) {
         EXPECT_EQ(moving.vertex_fields[1].values[frame], extras.vertex_fields[0].values);
         EXPECT_EQ(moving.cell_fields[0].values[frame], extras.cell_fields[0].values);
@@ -234,6 +237,11 @@ TEST(ReadMovingMesh, GivesQuantitiesNamesByWhichAFileTellsThemApart) {
             EXPECT_EQ(file.extras.vertex_fields.size(), 2U);
             EXPECT_EQ(file.extras.cell_fields.size() + (file.mesh.fibers.cols() > 0 ? 1 : 0), 2U);
             EXPECT_TRUE(has_fibers || file.mesh.fibers.cols() == 0);
+            for (const VertexField& of_cells : file.extras.cell_fields) {
+                for (const VertexField& of_vertices : file.extras.vertex_fields) {
+                    EXPECT_NE(of_cells.name, of_vertices.name);
+                }
+            }
         }
     }
 }
@@ -383,7 +391,7 @@ TEST(ReadMovingMesh, SaysWhatIsWrongWithASeries) {
             static_cast<void>(read_moving_mesh(
                 write_pvd(folder.path(), {{0, "0.vtu"}, {1, "0.vtu"}}), {.every = 2}));
         }),
-        {"every 2th frame leaves one"});
+        {"one frame of every 2 leaves one"});
     test::expect_contains(test::error_of([&] {
                               static_cast<void>(read_moving_mesh(
                                   write_pvd(folder.path(), {{0, "0.vtu"}, {1, "0.vtu"}}),

@@ -215,6 +215,10 @@ TEST(PentMesh, NeverWritesWhereItReads) {
     const std::string before = test::text_of(cube);
     fs::create_symlink(cube, folder / "link.pent");
     fs::create_hard_link(cube, folder / "hard.pent");
+    test::write_file(folder / "T.NODE", "4 3\n1 0 0 0\n2 1 0 0\n3 0 1 0\n4 0 0 1\n");
+    test::write_file(folder / "T.ELE", "1 4\n1 1 2 3 4\n");
+    const std::string pair =
+        "pent-mesh " + (folder / "T.NODE").string() + " -o " + (folder / "a.pent").string();
     test::write_file(folder / "lean.txt", "0 1\n1 1\n");
     const std::string start = "pent-mesh " + cube.string() + " -o ";
     const std::string good = start + (folder / "a.pent").string();
@@ -222,6 +226,7 @@ TEST(PentMesh, NeverWritesWhereItReads) {
          {start + (folder / "link.pent").string(), start + (folder / "hard.pent").string(),
           good + " --json " + cube.string(), good + " --histogram " + cube.string(),
           good + " --json " + (folder / "a.pent").string(),
+          pair + " --json " + (folder / "T.ELE").string(),
           good + " --profile " + (folder / "lean.txt").string() + " --json "
               + (folder / "lean.txt").string()}) {
         const Outcome outcome = run_program(command);

@@ -53,7 +53,7 @@ TEST(ReadProfile, NamesTheLineOfWhatIsWrong) {
     };
     test::expect_contains(message(""), {"profile.txt", "0 layers"});
     test::expect_contains(message("0 1\n"), {"1 layer;"});
-    test::expect_contains(message("0 1\n1\n"), {"line 2", "1 numbers"});
+    test::expect_contains(message("0 1\n1\n"), {"line 2", "1 number; expected"});
     test::expect_contains(message("0 1\n1 1 2\n"), {"3 numbers"});
     test::expect_contains(message("0 1\n1 -1\n"), {"scale -1"});
     test::expect_contains(message("0 1\n1 x\n"), {"\"x\""});

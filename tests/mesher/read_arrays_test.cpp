@@ -1,28 +1,27 @@
 #include "fields_of_base.h"
-#include "support/messages.h"
-#include "support/temp_folder.h"
+#include "tet_files.h"
 
 #include <pent/mesher/make_body.h>
-#include <pent/mesher/read_tetrahedra.h>
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
+#include <bit>
 #include <cstdint>
 #include <functional>
+#include <limits>
+#include <numeric>
 #include <string>
 #include <utility>
 #include <vector>
 
-// What files of Gmsh and TetGen have of their nodes and cells.
+// What files of Gmsh, TetGen and Medit have of their nodes and cells.
 
 namespace pent::mesher {
 namespace {
 
-TetrahedraFile read_text(const std::string& name, const std::string& text) {
-    const test::TempFolder folder;
-    test::write_file(folder / name, text);
-    return read_tetrahedra(folder / name);
-}
+using test::read_text;
 
 const Eigen::MatrixXd& field(const std::vector<VertexField>& fields, const std::string& name) {
     for (const VertexField& one : fields) {
@@ -31,6 +30,13 @@ const Eigen::MatrixXd& field(const std::vector<VertexField>& fields, const std::
         }
     }
     throw Error("no " + name);
+}
+
+template <typename T>
+std::string big_endian(T value) {
+    auto bytes = std::bit_cast<std::array<char, sizeof(T)>>(value);
+    std::reverse(bytes.begin(), bytes.end());
+    return {bytes.data(), bytes.size()};
 }
 
 // What the file says follows from the places of vertices and from which cell a cell is, in
@@ -154,6 +160,48 @@ TEST(ReadArrays, OfTetGenAreRefusedWhereALineHasFewer) {
 }
 
 // Of a quantity for each process, at several times, or of a name that is there twice.
+// Each goes with its vertex, however many sections the file has them in and whichever of its points
+// no cell uses; where all are 0 there are none.
+TEST(ReadArrays, OfMeditAreTheLabelsOfVertices) {
+    const SimplexMesh<3> base = test::base_box();
+    const auto label = [](const Eigen::Vector3d& x) { return static_cast<int>(9 * x[0] + x[2]); };
+    const auto vertices = [&](Eigen::Index first, Eigen::Index last, int factor) {
+        std::string text = formatted("Vertices %d\n9 9 9 77\n", static_cast<int>(last - first) + 1);
+        for (Eigen::Index v = first; v < last; ++v) {
+            const Eigen::Vector3d x = base.positions.col(v);
+            text += formatted("%.17g %.17g %.17g %d\n", x[0], x[1], x[2], factor * label(x));
+        }
+        return text;
+    };
+    const auto mesh = [&](const std::string& points, bool has_halves) {
+        std::string text = "MeshVersionFormatted 2\nDimension 3\n" + points
+                           + formatted("Tetrahedra %d\n", static_cast<int>(base.cell_count()));
+        const auto half = static_cast<std::uint32_t>(base.vertex_count() / 2);
+        for (Eigen::Index cell = 0; cell < base.cell_count(); ++cell) {
+            for (const std::uint32_t corner : base.cells.col(cell)) {
+                text += std::to_string(corner + (has_halves && corner >= half ? 3 : 2)) + " ";
+            }
+            text += "4\n";
+        }
+        return text + "End\n";
+    };
+    const Eigen::Index half = base.vertex_count() / 2;
+    const std::string halves = vertices(0, half, 1) + vertices(half, base.vertex_count(), 1);
+    for (const std::string& text :
+         {mesh(vertices(0, base.vertex_count(), 1), false), mesh(halves, true)}) {
+        const TetrahedraFile file = read_text("a.mesh", text);
+        ASSERT_EQ(file.mesh.positions, base.positions);
+        EXPECT_EQ(file.left_out, "");
+        const Eigen::MatrixXd& labels = field(file.extras.vertex_fields, "vertex_label");
+        for (Eigen::Index v = 0; v < base.vertex_count(); ++v) {
+            EXPECT_EQ(labels(0, v), label(base.positions.col(v)));
+        }
+    }
+    std::string none = mesh(vertices(0, base.vertex_count(), 0), false);
+    none.replace(none.find("77"), 2, "0");
+    EXPECT_TRUE(read_text("a.mesh", none).extras.vertex_fields.empty());
+}
+
 TEST(ReadArrays, OfGmshSayWhatIsLeftOut) {
     const std::string mesh =
         "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n4\n10 0 0 0\n20 1 0 0\n30 0 1 0\n40 0 0 1\n"
@@ -269,6 +317,144 @@ TEST(ReadArrays, KeepNamesOfNumbersAndVectorsApart) {
     ASSERT_EQ(two.extras.cell_fields.size(), 1U);
     EXPECT_EQ(two.extras.cell_fields[0].name, "fiber_");
     EXPECT_EQ(two.extras.cell_fields[0].values.col(5), Eigen::Vector3d(1, 2, 3));
+}
+
+// Eight points and six tetrahedra, whose numbers follow as bytes, those of most weight first.
+std::string binary_vtk(const std::string& arrays) {
+    const SimplexMesh<3> base = test::kuhn_box<3>({1, 1, 1}, {1, 1, 1});
+    std::string text =
+        "# vtk DataFile Version 3.0\na\nBINARY\nDATASET UNSTRUCTURED_GRID\nPOINTS 8 double\n";
+    for (const double coordinate : base.positions.reshaped()) {
+        text += big_endian(coordinate);
+    }
+    text += "\nCELLS 6 30\n";
+    for (const auto& cell : base.cells.colwise()) {
+        text += big_endian(4);
+        for (const std::uint32_t corner : cell) {
+            text += big_endian(corner);
+        }
+    }
+    text += "\nCELL_TYPES 6\n";
+    for (int cell = 0; cell < 6; ++cell) {
+        text += big_endian(10);
+    }
+    return text + "\n" + arrays;
+}
+
+template <typename T>
+void expect_numbers_of_type(const std::string& type) {
+    const std::array<T, 8> numbers = {
+        0, 1, std::numeric_limits<T>::lowest(), std::numeric_limits<T>::max(), 2, 3, 100, 127};
+    std::string arrays = "POINT_DATA 8\nSCALARS n " + type + "\nLOOKUP_TABLE default\n";
+    for (const T number : numbers) {
+        arrays += big_endian(number);
+    }
+    arrays += "\nSCALARS after char\nLOOKUP_TABLE default\n" + std::string(8, '\7') + "\n";
+    const TetrahedraFile file = read_text("a.vtk", binary_vtk(arrays));
+    for (Eigen::Index v = 0; v < 8; ++v) {
+        EXPECT_EQ(field(file.extras.vertex_fields, "n")(0, v),
+                  static_cast<double>(numbers[static_cast<std::size_t>(v)]))
+            << type;
+        EXPECT_EQ(field(file.extras.vertex_fields, "after")(0, v), 7) << type;
+    }
+}
+
+TEST(ReadArrays, OfLegacyVtkAreNumbersOfAnyType) {
+    expect_numbers_of_type<std::int8_t>("char");
+    expect_numbers_of_type<std::uint8_t>("unsigned_char");
+    expect_numbers_of_type<std::int16_t>("short");
+    expect_numbers_of_type<std::uint16_t>("unsigned_short");
+    expect_numbers_of_type<std::int32_t>("int");
+    expect_numbers_of_type<std::uint32_t>("unsigned_int");
+    expect_numbers_of_type<std::int64_t>("long");
+    expect_numbers_of_type<std::uint64_t>("unsigned_long");
+    expect_numbers_of_type<std::int64_t>("vtktypeint64");
+    expect_numbers_of_type<std::uint64_t>("vtktypeuint64");
+    expect_numbers_of_type<std::int32_t>("vtkIdType");
+    expect_numbers_of_type<float>("float");
+    expect_numbers_of_type<double>("double");
+}
+
+// Four bytes a color in a file of bytes, none of which is of an array.
+TEST(ReadArrays, OfLegacyVtkMayHaveATableOfColorsBetween) {
+    const TetrahedraFile file = read_text(
+        "a.vtk",
+        binary_vtk("POINT_DATA 8\nSCALARS n char\nLOOKUP_TABLE hot\n" + std::string(8, '\3')
+                   + "\nLOOKUP_TABLE hot 2\n" + std::string(8, '\377')
+                   + "\nSCALARS after char\nLOOKUP_TABLE default\n" + std::string(8, '\7') + "\n"));
+    EXPECT_EQ(field(file.extras.vertex_fields, "n"), Eigen::MatrixXd::Constant(1, 8, 3));
+    EXPECT_EQ(field(file.extras.vertex_fields, "after"), Eigen::MatrixXd::Constant(1, 8, 7));
+}
+
+// Eight to a byte, the first at its highest place; of the last byte those that there are.
+TEST(ReadArrays, OfLegacyVtkMayBeBits) {
+    const TetrahedraFile file = read_text(
+        "a.vtk", binary_vtk("POINT_DATA 8\nSCALARS flag bit\nLOOKUP_TABLE default\n\xa6\n"
+                            "CELL_DATA 6\nFIELD f 2\nflags 3 6 bit\n\xa6\x59\xc0\nflag 1 6 bit\n"
+                            "\xb4\n"));
+    const auto row = [](const std::vector<double>& bits) {
+        return Eigen::MatrixXd(Eigen::Map<const Eigen::RowVectorXd>(
+            bits.data(), static_cast<Eigen::Index>(bits.size())));
+    };
+    EXPECT_EQ(field(file.extras.vertex_fields, "flag"), row({1, 0, 1, 0, 0, 1, 1, 0}));
+    EXPECT_EQ(Eigen::MatrixXd(field(file.extras.cell_fields, "flags").reshaped(1, 18)),
+              row({1, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0, 1, 1, 0, 0, 1, 1, 1}));
+    EXPECT_EQ(field(file.extras.cell_fields, "flag_"), row({1, 0, 1, 1, 0, 1}));
+}
+
+// Words of a damaged file are as long as it likes; of those that are told 40 letters are.
+TEST(ReadArrays, OfLegacyVtkAreRefusedWithWhatStandsThere) {
+    const std::string name = "a_word_of_more_letters_than_anybody_would_want_to_read";
+    const std::string told = name.substr(0, 40);
+    const auto message = [](const std::string& arrays) {
+        return test::message_for("a.vtk", binary_vtk("POINT_DATA 8\n" + arrays));
+    };
+    test::expect_contains(message("FIELD f 1\n" + name + " 1 7 char\n"),
+                          {"array " + told + " has 7 rows, expected 8"});
+    test::expect_contains(message("VECTORS v " + name + "\n12345678"),
+                          {"values of type \"" + told + "\"; expected a type of numbers"});
+    test::expect_contains(message("SCALARS s char\n" + name + "\n"),
+                          {"found \"" + told + "\", expected LOOKUP_TABLE"});
+}
+
+// What shows numbers of vertices and of cells side by side, as slices do, knows them by name.
+TEST(ReadArrays, OfPointsAndCellsThatHaveOneNameGetTwo) {
+    const SimplexMesh<3> base = test::base_box();
+    const Eigen::Index points = base.vertex_count();
+    const Eigen::Index cells = base.cell_count();
+    const auto numbers = [](Eigen::Index count, int offset) {
+        std::string text;
+        for (int i = 0; i < count; ++i) {
+            text += std::to_string(i + offset) + " ";
+        }
+        return text + "\n";
+    };
+    const auto counting = [](Eigen::Index count, int offset) {
+        Eigen::VectorXd values(count);
+        std::iota(values.begin(), values.end(), offset);
+        return values;
+    };
+    const std::string scalar = "SCALARS heat double\nLOOKUP_TABLE default\n";
+    const std::string vector = "VECTORS heat double\n";
+    for (const int of_points : {1, 3}) {
+        for (const int of_cells : {1, 3}) {
+            const TetrahedraFile file = read_text(
+                "a.vtk", test::to_legacy_vtk(test::parts_of(base))
+                             + formatted("POINT_DATA %d\n", static_cast<int>(points))
+                             + (of_points == 1 ? scalar : vector) + numbers(of_points * points, 0)
+                             + formatted("CELL_DATA %d\n", static_cast<int>(cells))
+                             + (of_cells == 1 ? scalar : vector) + numbers(of_cells * cells, 1000));
+            EXPECT_EQ(file.left_out, "");
+            ASSERT_EQ(file.extras.vertex_fields.size(), 1U);
+            ASSERT_EQ(file.extras.cell_fields.size(), 1U);
+            EXPECT_EQ(file.extras.vertex_fields[0].name, "heat");
+            EXPECT_EQ(file.extras.cell_fields[0].name, "heat_");
+            EXPECT_EQ(Eigen::VectorXd(file.extras.vertex_fields[0].values.reshaped()),
+                      counting(of_points * points, 0));
+            EXPECT_EQ(Eigen::VectorXd(file.extras.cell_fields[0].values.reshaped()),
+                      counting(of_cells * cells, 1000));
+        }
+    }
 }
 
 TEST(ReadArrays, OfGmshAreRefusedWithTheLineWhereTheyAreDamaged) {

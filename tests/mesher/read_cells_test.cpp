@@ -1,9 +1,6 @@
-#include "shapes.h"
-#include "support/messages.h"
-#include "support/temp_folder.h"
+#include "tet_files.h"
 
 #include <pent/mesher/prove.h>
-#include <pent/mesher/read_tetrahedra.h>
 
 #include <gtest/gtest.h>
 
@@ -20,15 +17,8 @@
 namespace pent::mesher {
 namespace {
 
-TetrahedraFile read_text(const std::string& name, const std::string& text) {
-    const test::TempFolder folder;
-    test::write_file(folder / name, text);
-    return read_tetrahedra(folder / name);
-}
-
-std::string message_for(const std::string& name, const std::string& text) {
-    return test::error_of([&] { static_cast<void>(read_text(name, text)); });
-}
+using test::message_for;
+using test::read_text;
 
 // A number of a binary file.
 template <typename T>

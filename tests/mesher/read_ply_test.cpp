@@ -126,20 +126,26 @@ TEST(ReadPly, NamesTheLineOfAHeaderThatIsWrong) {
 // MeshLab writes quality as it comes, which may be no number, and texture as lists.
 TEST(ReadPly, PassesOverWhatNothingIsMadeOf) {
     const std::string whole = kHeader + kPoints + "3 0 1 2\n";
-    std::string rich = replaced(whole, "property float z\n",
-                                "property list uchar int tags\nproperty float quality\n"
-                                "property float z\nproperty float zs\nproperty float w\n");
+    std::string rich =
+        replaced(whole, "property float z\n",
+                 "property list uchar int tags\nproperty float quality\n"
+                 "property float z\nproperty float zs\nproperty float w\nproperty float ~\n");
     rich = replaced(rich, "int vertex_indices\n",
                     "int vertex_indices\nproperty list uchar float uv\nproperty float q\n");
-    rich = replaced(
-        rich, kPoints + "3 0 1 2\n",
-        "0 0 2 7 -9 nan 0 5 6\n1 0 0 -inf 0 5 6\n0 1 1 nan 1e999 0 5 6\n3 0 1 2 2 nan 1 inf\n");
+    rich = replaced(rich, kPoints + "3 0 1 2\n",
+                    "0 0 2 7 -9 nan 0 5 6 7\n1 0 0 -inf 0 5 6 7\n0 1 1 nan 1e999 0 5 6 7\n"
+                    "3 0 1 2 2 nan 1 inf\n");
+    // Only faces are surfaces, and rows without a property are none, whatever their number.
+    rich = replaced(rich, "end_header\n",
+                    "element patch 2\nproperty list uchar int vertex_indices\nelement none 20\n"
+                    "end_header\n")
+           + "3 0 2 1\n1 0\n";
     const SurfaceFile plain = read_bytes(whole);
     const SurfaceFile found = read_bytes(rich);
     EXPECT_EQ(found.surface.points, plain.surface.points);
     EXPECT_EQ(found.surface.triangles, plain.surface.triangles);
     test::expect_contains(message_for(replaced(rich, "0 0 2 7 -9 nan 0", "0 0 2 7 -9 0 nan")),
-                          {"a.ply: line 16: found \"nan\", expected a value, a finite number"});
+                          {"a.ply: line 20: found \"nan\", expected a value, a finite number"});
 }
 
 TEST(ReadPly, CountsEdgesAndRefusesStrips) {
@@ -163,6 +169,8 @@ TEST(ReadPly, NamesValuesThatAreWrong) {
     test::expect_contains(message_for(kHeader + kPoints + "-1\n"), {"a list of length -1"});
     test::expect_contains(message_for(kHeader + kPoints + "2 0 1\n"),
                           {"a face with 2 corners", "expected 3 or more"});
+    test::expect_contains(message_for(kHeader + kPoints + "1 0\n"),
+                          {"a face with 1 corner;", "expected 3 or more"});
     std::string infinite = corner_of<float>("float", false);
     infinite.replace(infinite.find("end_header\n") + 11, 4,
                      raw(std::numeric_limits<float>::infinity(), false));

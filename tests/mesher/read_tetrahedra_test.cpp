@@ -1,25 +1,15 @@
-#include "shapes.h"
-#include "support/messages.h"
-#include "support/temp_folder.h"
+#include "tet_files.h"
 
-#include <pent/mesher/read_tetrahedra.h>
+#include <pent/mesher/tetgen_files.h>
 
 #include <gtest/gtest.h>
 
 namespace pent::mesher {
 namespace {
 
+using test::message_for;
+using test::read_text;
 using test::write_file;
-
-TetrahedraFile read_text(const std::string& name, const std::string& text) {
-    const test::TempFolder folder;
-    write_file(folder / name, text);
-    return read_tetrahedra(folder / name);
-}
-
-std::string message_for(const std::string& name, const std::string& text) {
-    return test::error_of([&] { static_cast<void>(read_text(name, text)); });
-}
 
 // Every sample below is the corner of the unit cube and its mirror image behind x = 0.
 void expect_two_corners(const TetrahedraFile& file) {
@@ -81,6 +71,19 @@ TEST(ReadTetrahedra, ReadsNodeAndEleByEitherName) {
     expect_two_corners(read_tetrahedra(folder / "a.node"));
     expect_two_corners(read_tetrahedra(folder / "a.ele"));
     EXPECT_EQ(read_tetrahedra(folder / "a.ele").mesh.regions, (std::vector<std::uint16_t>{5, 6}));
+}
+
+// As programs write them whose names are in capitals throughout.
+TEST(ReadTetrahedra, ReadsNodeAndEleInCapitals) {
+    const test::TempFolder folder;
+    write_file(folder / "A.NODE", kNode);
+    write_file(folder / "A.ELE", kEle);
+    expect_two_corners(read_tetrahedra(folder / "A.NODE"));
+    expect_two_corners(read_tetrahedra(folder / "A.ELE"));
+    EXPECT_EQ(other_tetgen_file("b/A.NODE"), "b/A.ELE");
+    EXPECT_EQ(other_tetgen_file("b/A.ELE"), "b/A.NODE");
+    EXPECT_EQ(other_tetgen_file("b/A.ele"), "b/A.node");
+    EXPECT_EQ(other_tetgen_file("b/A.MESH"), "");
 }
 
 // Regions are whole numbers; others would become those of their neighbors.

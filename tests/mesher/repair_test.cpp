@@ -4,8 +4,12 @@
 
 #include <pent/mesher/orient.h>
 #include <pent/mesher/repair.h>
+#include <pent/mesher/shapes.h>
 
 #include <gtest/gtest.h>
+
+#include <cmath>
+#include <utility>
 
 namespace pent::mesher {
 namespace {
@@ -27,7 +31,32 @@ TEST(Repair, LeavesACleanSurfaceAsItIs) {
         EXPECT_EQ(repaired.surface.points, octopus.points);
         EXPECT_EQ(repaired.surface.triangles, octopus.triangles);
         EXPECT_EQ(repaired.distance, 0);
+        EXPECT_EQ(repaired.before.triangles, octopus.triangle_count());
+        EXPECT_EQ(repaired.after.triangles, octopus.triangle_count());
     }
+}
+
+TEST(Repair, LeavesATetrahedronAsItIs) {
+    Surface tetrahedron;
+    tetrahedron.points = Positions<3>::Identity(3, 4);
+    tetrahedron.triangles.resize(3, 4);
+    tetrahedron.triangles << 0, 0, 0, 1, 1, 3, 2, 3, 2, 1, 3, 2;
+    const Repaired repaired = repair(tetrahedron, {.repair = Repair::None});
+    EXPECT_EQ(repaired.surface.triangles, tetrahedron.triangles);
+    EXPECT_NEAR(std::abs(enclosed_volume(repaired.surface)), 1.0 / 6, 1e-16);
+}
+
+// Lines there and back, between four corners that are not in a plane.
+TEST(Repair, RefusesTrianglesWithoutAnArea) {
+    Surface lines;
+    lines.points = Positions<3>::Identity(3, 4);
+    lines.triangles.resize(3, 3);
+    lines.triangles << 0, 2, 0, 1, 3, 2, 0, 2, 2;
+    for (const Repair level : {Repair::Auto, Repair::Light, Repair::Wrap}) {
+        EXPECT_EQ(message_for(lines, level),
+                  "no triangle of the surface has an area; it encloses no volume");
+    }
+    test::expect_contains(message_for(lines, Repair::None), {"3 degenerate triangles"});
 }
 
 TEST(Repair, MendsCubesLightlyToTheCubesTheyWere) {
@@ -45,6 +74,30 @@ TEST(Repair, TakesTheWallOutBetweenTwoBodies) {
     EXPECT_EQ(repaired.used, Repair::Light);
     EXPECT_EQ(repaired.surface.triangle_count(), 20);
     EXPECT_DOUBLE_EQ(std::abs(enclosed_volume(repaired.surface)), 2);
+}
+
+// Triangles that hang on a cube by an edge each, outside or inside.
+TEST(Repair, TakesFinsOff) {
+    const Surface cube = test::box_surface({0, 0, 0}, {1, 1, 1});
+    for (const Eigen::Vector3d& tip :
+         {Eigen::Vector3d(0.5, -1, -1), Eigen::Vector3d(0.5, 0.3, 0.4)}) {
+        for (const int count : {1, 2}) {
+            Surface finned = cube;
+            finned.points.conservativeResize(3, 10);
+            finned.points.col(8) = tip;
+            finned.points.col(9) << 2, 2, 0.5;
+            finned.triangles.conservativeResize(3, 14);
+            finned.triangles.rightCols<2>() << 0, 3, 1, 7, 8, 9;
+            finned.triangles.conservativeResize(3, 12 + count);
+            const Repaired repaired = repair(finned);
+            EXPECT_EQ(repaired.used, Repair::Light);
+            EXPECT_TRUE(repaired.after.is_clean());
+            EXPECT_EQ(repaired.surface.triangle_count(), 12);
+            EXPECT_EQ(repaired.surface.point_count(), 8);
+            EXPECT_DOUBLE_EQ(std::abs(enclosed_volume(repaired.surface)), 1);
+            EXPECT_EQ(repaired.distance, 0);
+        }
+    }
 }
 
 TEST(Repair, UnitesBodiesThatCross) {
@@ -78,6 +131,22 @@ TEST(UniteCrossingComponents, LeavesWhatHasNoUnionAsItIs) {
     EXPECT_EQ(unite_crossing_components(touching).triangles, touching.triangles);
 }
 
+// A sphere of which one point was pulled through the other side: the spike goes, the sphere stays.
+TEST(Repair, CutsSelfIntersectionsOut) {
+    const Surface whole = sphere(4);
+    Surface pulled = whole;
+    Eigen::Index far = 0;
+    whole.points.row(0).maxCoeff(&far);
+    pulled.points.col(far) << -1.5, 0, 0.1;
+    const Repaired repaired = repair(pulled, {.repair = Repair::Light});
+    EXPECT_GT(repaired.before.self_intersections.count, 0);
+    EXPECT_EQ(repaired.used, Repair::Light);
+    EXPECT_TRUE(repaired.after.is_clean());
+    EXPECT_EQ(repaired.after.components, 1);
+    const double volume = std::abs(enclosed_volume(repaired.surface));
+    EXPECT_NEAR(volume, std::abs(enclosed_volume(whole)), 0.1 * volume);
+}
+
 TEST(Repair, UnitesBodiesThatTouchInPartsOfTheirSides) {
     const Repaired repaired = repair(test::join(test::box_surface({0, 0, 0}, {2, 2, 2}),
                                                 test::box_surface({2, 0.5, 0.5}, {3, 1.5, 1.5})));
@@ -105,6 +174,30 @@ TEST(Repair, WrapsWhenAskedTo) {
         repair(model("dirty/d_cube.off"), {.repair = Repair::Wrap, .wrap_distance = 0.04});
     EXPECT_EQ(repaired.used, Repair::Wrap);
     EXPECT_TRUE(repaired.after.is_clean());
+    // All around the cube, of which a corner is 1.7 m from the other.
+    EXPECT_GT(repaired.distance, 0);
+    EXPECT_LE(repaired.distance, 0.04 * std::sqrt(3));
+    EXPECT_GT(std::abs(enclosed_volume(repaired.surface)), 1);
+}
+
+// A wrap has its points at a five-hundredth of the diagonal from the surface, then at half of that,
+// until it is near enough; CGAL has them there within a hundredth. At any size: powers of two
+// change no digit.
+TEST(Repair, WrapsNearerUntilItIsNearEnough) {
+    const Surface cube = test::box_surface({0, 0, 0}, {1, 1, 1});
+    const double diagonal = std::sqrt(3.0);
+    for (const auto& [wrap_distance, part] : {std::pair(0.04, 500), std::pair(0.0015, 1000)}) {
+        const RepairOptions options{.repair = Repair::Wrap, .wrap_distance = wrap_distance};
+        const Repaired repaired = repair(cube, options);
+        EXPECT_LE(repaired.distance, wrap_distance * diagonal);
+        for (const auto& p : repaired.surface.points.colwise()) {
+            const double distance = ((p.array() - 1).max(0) + (-p.array()).max(0)).matrix().norm();
+            EXPECT_NEAR(distance, diagonal / part, 0.01 * diagonal / part);
+        }
+        Surface large = cube;
+        large.points *= 0x1p10;
+        EXPECT_EQ(repair(large, options).surface.points, 0x1p10 * repaired.surface.points);
+    }
 }
 
 TEST(Repair, RefusesSizesWhoseVolumesCannotBeNumbers) {

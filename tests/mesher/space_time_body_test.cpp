@@ -148,13 +148,17 @@ TEST(PentMesh, SaysWhatIsWrongWithAMovingMeshAndWritesNothing) {
              {" --space-time --body a", "--body: without meaning for"},
              {" --space-time --dim 3", "a space-time mesh has four dimensions"},
              {" --space-time --refine-time often", "expected auto or a whole number"},
-             {" --space-time --every 3", "every 3th frame leaves one"},
+             {" --space-time --every 3", "one frame of every 3 leaves one"},
              {" --space-time --time-step 1", "has times itself"}}) {
         const Outcome outcome = run_program("pent-mesh " + pvd + options + out);
         EXPECT_EQ(outcome.exit_code, 1) << options;
         test::expect_one_error_line(outcome, "pent-mesh");
         test::expect_contains(outcome.err, {message});
     }
+    const Outcome nothing =
+        run_program("pent-mesh " + (folder / "RUN").string() + " --space-time --body a" + out);
+    test::expect_one_error_line(nothing, "pent-mesh");
+    test::expect_contains(nothing.err, {"RUN: expected a list of frames", "or a run folder"});
     EXPECT_EQ(run_program("pent-mesh " + pvd + " --time-scale 2" + out).exit_code, 2);
     EXPECT_EQ(run_program("pent-mesh " + pvd + out).exit_code, 1);
     std::filesystem::resize_file(folder / "ball_1.vtu", 900);

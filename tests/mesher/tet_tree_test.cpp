@@ -105,6 +105,41 @@ TEST(TetTree, KeepsEveryTetrahedron) {
     }
 }
 
+// Boxes and balls are rounded, to 1e-5 m of what is a kilometer away, but outward alone: a point
+// that lies on a tetrahedron is found, however near to it one is asked for.
+TEST(TetTree, FindsWhatAPointLiesOnOrJustBeside) {
+    std::mt19937 random(8);
+    std::vector<Matrix4d> all = scattered(200, random);
+    for (Matrix4d& corners : all) {
+        corners.colwise() += Vector4d(1000.0 / 3, -2000.0 / 3, 1000.0 / 7, 500.0 / 9);
+    }
+    const TetTree tree = tree_of(all);
+    constexpr double kNear = 1e-9;  // much less than that, and much more than doubles are rounded
+    for (std::uint32_t t = 0; t < tree.count(); ++t) {
+        const Matrix4d own = tree.corners(t);
+        for (int corner = 0; corner < 4; ++corner) {
+            for (const Vector4d& p : {Vector4d(own.col(corner)), Vector4d(own.rowwise().mean()),
+                                      Vector4d((own.col(corner) + own.col(0)) / 2)}) {
+                EXPECT_LT(tree.nearest(p, TetTree::kAnyPatch, kNear).distance_squared,
+                          kNear * kNear);
+                bool is_within = false;
+                tree.visit_within(p, kNear, [&](std::uint32_t one) { is_within |= one == t; });
+                EXPECT_TRUE(is_within);
+            }
+        }
+        // Beside it by less than boxes are rounded.
+        for (int axis = 0; axis < 4; ++axis) {
+            Eigen::Index corner = 0;
+            own.row(axis).maxCoeff(&corner);
+            const Vector4d beside = own.col(corner) + 1e-6 * Vector4d::Unit(axis);
+            EXPECT_LT(tree.nearest(beside, TetTree::kAnyPatch, 2e-6).distance_squared, 1.001e-12);
+            bool is_within = false;
+            tree.visit_within(beside, 2e-6, [&](std::uint32_t one) { is_within |= one == t; });
+            EXPECT_TRUE(is_within);
+        }
+    }
+}
+
 TEST(TetTree, FindsWhatALookAtEveryTetrahedronFinds) {
     std::mt19937 random(2);
     TetTree tree = tree_of(scattered(300, random));

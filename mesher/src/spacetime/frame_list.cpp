@@ -2,6 +2,7 @@
 
 #include "../xml_file.h"
 
+#include <pent/counted.h>
 #include <pent/error.h>
 #include <pent/formatted.h>
 #include <pent/input_path.h>
@@ -173,8 +174,7 @@ void check_times(const std::vector<FrameFile>& frames, const fs::path& path) {
         }
     }
     if (frames.size() < 2) {
-        throw Error(path.string() + ": " + std::to_string(frames.size())
-                    + (frames.size() == 1 ? " frame" : " frames")
+        throw Error(path.string() + ": " + counted(frames.size(), "frame", "frames")
                     + "; a space-time mesh needs two or more");
     }
 }

@@ -44,7 +44,7 @@ std::string FieldNames::take(std::string_view name, bool is_vector) {
             (c >= '0' && c <= '9') || (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_';
         result += is_plain ? c : '_';
     }
-    while (result.empty() || !is_free(result, is_vector)) {
+    while (result.empty() || others_.contains(result) || !is_free(result, is_vector)) {
         result += '_';
     }
     for (const std::string& property : properties_of(result, is_vector)) {

@@ -15,16 +15,20 @@ namespace pent::mesher {
 class FieldNames {
 public:
     /// @param reserved  Names of properties with another meaning.
-    explicit FieldNames(std::set<std::string> reserved) : taken_(std::move(reserved)) {}
+    /// @param others    Names of quantities of the vertices, where these are of the cells: what
+    ///                  shows both at vertices could not tell them apart.
+    explicit FieldNames(std::set<std::string> reserved, std::set<std::string> others = {})
+        : taken_(std::move(reserved)), others_(std::move(others)) {}
 
     /// The name with '_' for all but letters, digits and '_', and with as many more behind it as it
-    /// takes until no property of another quantity has it, with an axis or without.
+    /// takes until no other quantity has it, nor a property of one, with an axis or without.
     [[nodiscard]] std::string take(std::string_view name, bool is_vector);
 
 private:
     [[nodiscard]] bool is_free(const std::string& name, bool is_vector) const;
 
     std::set<std::string> taken_;
+    std::set<std::string> others_;
 };
 
 /// Whether a vector of cells with this name is the direction of fibers.

@@ -7,6 +7,7 @@
 #include "moving_fields.h"
 #include "run_frames.h"
 
+#include <pent/counted.h>
 #include <pent/error.h>
 #include <pent/facets.h>
 #include <pent/formatted.h>
@@ -57,7 +58,7 @@ void require_same_cells(const FileGrid& first,
     const CellSoup& a = first.soup;
     const CellSoup& b = grid.soup;
     if (a.points.size() != b.points.size()) {
-        differ(std::to_string(b.points.size()) + " points", std::to_string(a.points.size()));
+        differ(counted(b.points.size(), "point", "points"), std::to_string(a.points.size()));
     }
     std::size_t at = 0;
     for (std::size_t cell = 0; cell < std::min(a.kinds.size(), b.kinds.size()); ++cell) {
@@ -74,7 +75,7 @@ void require_same_cells(const FileGrid& first,
         at += count;
     }
     if (a.kinds.size() != b.kinds.size()) {
-        differ(std::to_string(b.kinds.size()) + " cells of three dimensions",
+        differ(counted(b.kinds.size(), "cell", "cells") + " of three dimensions",
                std::to_string(a.kinds.size()));
     }
 }
@@ -110,9 +111,10 @@ public:
         if (regions != nullptr) {
             add_triangles(grid, *regions);
         }
-        vertex_arrays_ = begin_fields(carried_point_arrays(grid, dropped_), mesh_.vertex_fields);
-        cell_arrays_ =
-            begin_fields(carried_cell_arrays(grid, region_name_, dropped_), mesh_.cell_fields);
+        const CarriedArrays of_points = carried_point_arrays(grid, dropped_);
+        vertex_arrays_ = begin_fields(of_points, mesh_.vertex_fields);
+        cell_arrays_ = begin_fields(carried_cell_arrays(grid, of_points, region_name_, dropped_),
+                                    mesh_.cell_fields);
         first_ = std::move(grid);
         add_frame(first_, path);
     }
@@ -313,7 +315,7 @@ std::vector<fs::path> frame_files(const fs::path& path, const SeriesOptions& opt
 
 MovingMesh read_moving_mesh(const fs::path& path, const SeriesOptions& options) {
     if (options.every < 1) {
-        throw Error("each " + std::to_string(options.every) + "th frame; expected 1 or more");
+        throw Error("one frame of every " + std::to_string(options.every) + "; expected 1 or more");
     }
     if (!is_series(path)) {
         throw Error(path.string()
@@ -325,7 +327,7 @@ MovingMesh read_moving_mesh(const fs::path& path, const SeriesOptions& options) 
     require_sound_base(mesh.base, path.string());
     if (mesh.frame_count() < 2) {
         throw Error(path.string()
-                    + formatted(": every %dth frame leaves one; a space-time mesh"
+                    + formatted(": one frame of every %d leaves one; a space-time mesh"
                                 " needs two or more",
                                 options.every));
     }

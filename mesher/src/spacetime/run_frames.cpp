@@ -2,6 +2,7 @@
 
 #include "moving_fields.h"
 
+#include <pent/counted.h>
 #include <pent/error.h>
 #include <pent/formatted.h>
 #include <pent/run_files.h>
@@ -109,10 +110,12 @@ void finish_fields(MovingMesh& mesh) {
         leave_out(removed, mesh);
     }
     FieldNames names(reserved_vertex_names(4));
+    std::set<std::string> of_vertices;
     for (MovingField& field : mesh.vertex_fields) {
         field.name = names.take(field.name, field.values.front().rows() == 3);
+        of_vertices.insert(field.name);
     }
-    FieldNames cell_names(reserved_cell_names(4));
+    FieldNames cell_names(reserved_cell_names(4), std::move(of_vertices));
     for (MovingField& field : mesh.cell_fields) {
         if (field.values.front().rows() == 1) {  // all but the fibers
             field.name = cell_names.take(field.name, false);
@@ -162,8 +165,8 @@ MovingMesh read_run_frames(const fs::path& folder, const SeriesOptions& options)
     std::iota(mesh.cell_numbers.begin(), mesh.cell_numbers.end(), 0U);
     const std::vector<fs::path> frames = frames_of(folder, body);
     if (frames.size() < 2) {
-        throw Error(folder.string() + ": " + std::to_string(frames.size()) + " frames of " + body
-                    + "; a space-time mesh needs two or more");
+        throw Error(folder.string() + ": " + counted(frames.size(), "frame", "frames") + " of "
+                    + body + "; a space-time mesh needs two or more");
     }
     for (std::size_t i = 0; i < frames.size(); i += static_cast<std::size_t>(options.every)) {
         const Frame<3> frame = read_frame<3>(frames[i]);
