@@ -23,17 +23,18 @@ done
 
 cat <<END
 
-demo: done in $((SECONDS - built)) s (and $((built - start)) s to install and build). Look at
+demo: done in $((SECONDS - built)) s (and $((built - start)) s to install and build). In $out are
 
-  $out/octopus-sheet.png   $out/alien-sheet.png    contact sheets: the slice w = 0 over time
-  $out/octopus.mp4   $out/alien.mp4    movies
-  $out/octopus-slices/                 the slices as triangle meshes, for Blender or MeshLab
-  $out/octopus/frames/                 the 4D frames themselves
+  octopus-sheet.png   alien-sheet.png    contact sheets: the slice w = 0 over time
+  octopus.mp4         alien.mp4          movies
+  octopus-slices/     alien-slices/      slices as triangle meshes, for Blender or MeshLab
+  octopus/frames/     alien/frames/      the 4D frames themselves
 
-Try next
-  edit data/scenes/octopus.toml (another plane of rotation, a softer body) and run this script again
-  $bin/pent-render $out/octopus -o other.mp4 --w 0.3        another slice of the same motion
-  $bin/pent-mesh YOUR.obj -o your.pent                       a mesh of your own
-  scripts/gallery.sh                                         bodies that are tied, driven and alive
-  scripts/paper.sh                                           the scenes of the paper
+Edit data/scenes/octopus.toml (another plane of rotation, a softer body) and run this script again, or try
+
+  export PATH=$bin:\$PATH
+  pent-render $out/octopus -o other.mp4 --w 0.3    # another slice of the same motion
+  pent-mesh YOUR.obj -o your.pent    # a mesh of your own
+  scripts/gallery.sh                 # bodies that are tied, driven and alive
+  scripts/paper.sh --quick           # the scenes of the paper, a few frames of each
 END

@@ -17,7 +17,11 @@
 #include <cstdlib>
 #include <exception>
 #include <filesystem>
+#include <memory>
 #include <new>
+#include <numeric>
+#include <set>
+#include <string>
 #include <thread>
 #include <utility>
 #include <vector>
@@ -133,6 +137,43 @@ void make_folder_for(const std::filesystem::path& file) {
     }
 }
 
+namespace {
+
+// What stands behind an option in --help, as people write it: "INT from 1 to 64 [4]" where CLI11
+// has "INT:INT in [1 - 64]=4".
+class PlainFormatter : public CLI::Formatter {
+public:
+    std::string make_option_opts(const CLI::Option* option) const override {
+        std::string text;
+        if (const std::string told = option->get_option_text(); !told.empty()) {
+            text += " " + told;
+        } else if (option->get_type_size() != 0) {
+            std::string type = option->get_type_name();
+            std::replace(type.begin(), type.end(), ':', ' ');
+            const std::string preset = option->get_default_str();
+            text += (type.empty() ? "" : " " + type) + (preset.empty() ? "" : " [" + preset + "]");
+            if (option->get_expected_max() == CLI::detail::expected_max_vector_size) {
+                text += " ...";
+            }
+            text += option->get_required() ? " REQUIRED" : "";
+        }
+        return text + names_of(" Needs:", option->get_needs())
+               + names_of(" Excludes:", option->get_excludes());
+    }
+
+private:
+    static std::string names_of(const std::string& heading, const std::set<CLI::Option*>& options) {
+        std::vector<std::string> names;  // the order of the set is that of addresses
+        for (const CLI::Option* option : options) {
+            names.push_back(" " + option->get_name());
+        }
+        std::sort(names.begin(), names.end());
+        return std::accumulate(names.begin(), names.end(), names.empty() ? "" : heading);
+    }
+};
+
+}  // namespace
+
 bool stop_requested() {
     return stop_signals != 0;
 }
@@ -147,6 +188,7 @@ Program::Program(std::string name, const std::string& description, const std::st
     cli_.add_flag("--quiet", common_.quiet, "Print nothing but errors");
     cli_.add_option("--json", common_.json, "Write a machine-readable report to this file")
         ->type_name("FILE");
+    cli_.formatter(std::make_shared<PlainFormatter>());
     cli_.footer("Example:\n  " + example);
 }
 

@@ -26,6 +26,10 @@ std::string readable_time(double seconds) {
                      static_cast<int>(whole % 3600 / 60));
 }
 
+std::string readable_rate(double per_second) {
+    return formatted(per_second < 999.5 ? "%.3g" : "%.0f", per_second);
+}
+
 Progress::Progress(std::string label, std::int64_t total, bool quiet)
     : label_(std::move(label)),
       total_(total),
@@ -52,12 +56,11 @@ bool Progress::update(std::int64_t done, const std::string& note) {
     const double elapsed = std::chrono::duration<double>(now - start_).count();
     const double rate = static_cast<double>(done - first_) / std::max(elapsed, 1e-9);
     const double left = static_cast<double>(total_ - done) / rate;
-    std::printf("%s%s %lld of %lld, %.3g per s, %s left%s%s%s", terminal_ ? "\r" : "",
-                label_.c_str(),
+    std::printf("%s%s %lld of %lld, %s per s, %s left%s%s%s", terminal_ ? "\r" : "", label_.c_str(),
                 static_cast<long long>(done),    // NOLINT(google-runtime-int): printf's type
                 static_cast<long long>(total_),  // NOLINT(google-runtime-int)
-                rate, readable_time(left).c_str(), note.empty() ? "" : "; ", note.c_str(),
-                terminal_ ? "\x1b[K" : "\n");
+                readable_rate(rate).c_str(), readable_time(left).c_str(), note.empty() ? "" : "; ",
+                note.c_str(), terminal_ ? "\x1b[K" : "\n");
     open_line_ = terminal_;
     std::fflush(stdout);
     return true;

@@ -29,34 +29,31 @@ CLI::Validator check_of(const std::string& wanted, const std::string& help, cons
 }
 
 std::string between(const std::string& low, const std::string& high) {
-    return " from " + low + " to " + high;
+    return "from " + low + " to " + high;
 }
 
 }  // namespace
 
 CLI::Validator whole_number(std::int64_t low, std::int64_t high) {
-    const std::string first = std::to_string(low);
-    const std::string last = std::to_string(high);
-    return check_of<std::int64_t>(
-        "a whole number" + between(first, last), "INT in [" + first + " - " + last + "]",
-        [=](std::int64_t value) { return low <= value && value <= high; });
+    const std::string bounds = between(std::to_string(low), std::to_string(high));
+    return check_of<std::int64_t>("a whole number " + bounds, bounds, [=](std::int64_t value) {
+        return low <= value && value <= high;
+    });
 }
 
 CLI::Validator number(double low, double high) {
-    const std::string first = text_of(low);
-    const std::string last = text_of(high);
-    return check_of<double>("a number" + between(first, last),
-                            "FLOAT in [" + first + " - " + last + "]",
+    const std::string bounds = between(text_of(low), text_of(high));
+    return check_of<double>("a number " + bounds, bounds,
                             [=](double value) { return low <= value && value <= high; });
 }
 
 CLI::Validator positive_number() {
-    return check_of<double>("a number above 0", "POSITIVE",
+    return check_of<double>("a number above 0", "above 0",
                             [](double value) { return value > 0 && std::isfinite(value); });
 }
 
 CLI::Validator nonnegative_number() {
-    return check_of<double>("a number of at least 0", "NONNEGATIVE",
+    return check_of<double>("a number of at least 0", "of at least 0",
                             [](double value) { return value >= 0 && std::isfinite(value); });
 }
 

@@ -42,9 +42,9 @@ class Help:
 
 HEADING = re.compile(r"^ *(?:(\w[\w ]*):|\[Option Group: (.*)\])$")
 ENTRY = re.compile(r"^( +)((?:-\w,)?--?[a-z][\w-]*|[a-z][\w-]*)(?: +(.*))?$")
-NOTES = re.compile(r" ?(?:REQUIRED|x \d+)(?= |$)")
+NOTES = re.compile(r" ?REQUIRED(?= |$)")
 COMPANY = re.compile(r" ?\b(Needs|Excludes):((?: (?!Needs:|Excludes:)[\w-]+)+)")
-NUMBER = re.compile(r"(?:\w+:)?(INT|UINT|FLOAT)(?::\w+)?(?: in \[(.*)\])?(?:=(.*))?$")
+NUMBER = re.compile(r"(INT|UINT|FLOAT)\b(.*?)(?: \[(.*)\])?$")
 CONTINUED = re.compile(r"^ {28,}\S")
 COLUMN = 28  # where texts begin behind the indent; those without room in the line below
 
@@ -62,10 +62,9 @@ def entry_of(line: str, has_text: bool, section: str) -> Option | None:
         ("needs " if kind == "Needs" else "not with ") + ", ".join(names) for kind, names in others
     ]
     value = NOTES.sub("", COMPANY.sub("", value)).strip()
-    if number := NUMBER.match(value):  # as CLI11 writes "INT:INT in [1 - 9]=4"
+    if number := NUMBER.match(value):  # as "INT from 1 to 9 [4]"
         kind = "INTEGER" if "INT" in number[1] else "NUMBER"
-        between = f" from {number[2].replace(' - ', ' to ')}" if number[2] else ""
-        value = kind + between + (f", default {number[3]}" if number[3] else "")
+        value = kind + number[2] + (f", default {number[3]}" if number[3] else "")
     section = section if names[0] == "-" else "Arguments"
     told = f" ({'; '.join(company)})" if company else ""
     return Option(names.split(","), value, text, section, told)

@@ -3,6 +3,7 @@
 #include "common/heartbeat.h"
 #include "common/program.h"
 #include "common/progress.h"
+#include "common/scene_argument.h"
 
 #include <pent/counted.h>
 #include <pent/crc32c.h>
@@ -72,16 +73,14 @@ void summarize_contact(Program& program, const RunReport& report) {
     if (contact_seconds == 0) {
         return;
     }
-    if (most == 0 && count_refused(report) == 0) {
-        program.say("contact: nothing touches at the end of a step");
-    } else if (most == 0) {
-        program.say(
-            "contact: nothing touches at the end of a step, but steps were cut: there it may"
-            " have acted");
-    }
     const double share = contact_seconds / seconds;
-    program.say("contact: " + percent(share) + " of the time; at most " + std::to_string(most)
-                + " pairs, deepest penetration " + formatted("%.3g m", deepest));
+    const std::string found =
+        most > 0 ? "at most " + counted(most, "pair", "pairs") + ", deepest penetration "
+                       + formatted("%.3g m", deepest)
+        : count_refused(report) == 0
+            ? "nothing touches at the end of a step"
+            : "nothing touches at the end of a step, but steps were cut: there it may have acted";
+    program.say("contact: " + percent(share) + " of the time; " + found);
     program.report()["contact"] = {{"share_of_time", share},
                                    {"seconds", contact_seconds},
                                    {"most_pairs", most},
@@ -100,17 +99,18 @@ std::string summarize_defects(Program& program, const RunReport& report) {
     program.report()["inverted"] = last.inverted;
     program.report()["inverted_steps"] = inverted_steps;
     if (last.collapsed > 0) {
-        program.say(std::to_string(last.collapsed) + " of " + std::to_string(report.size.elements)
-                    + " elements have collapsed, to where the stable neo-Hookean energy holds them"
+        const std::string elements = "of " + std::to_string(report.size.elements) + " elements ";
+        program.say(counted(last.collapsed, elements + "has", elements + "have")
+                    + " collapsed, to where the stable neo-Hookean energy holds them"
                       " (docs/simulator.md, Limits)");
     }
     if (inverted_steps > 0) {
-        const std::string steps = std::to_string(inverted_steps)
-                                  + (inverted_steps == 1 ? " step" : " steps") + " of "
-                                  + std::to_string(report.steps.size());
+        const std::string steps =
+            counted(inverted_steps, "step", "steps") + " of " + std::to_string(report.steps.size());
+        const std::string cells = "of " + std::to_string(report.size.cells) + " cells ";
         program.say(last.inverted > 0
-                        ? std::to_string(last.inverted) + " of " + std::to_string(report.size.cells)
-                              + " cells are inside out at the end, and some were behind " + steps
+                        ? counted(last.inverted, cells + "is", cells + "are")
+                              + " inside out at the end, and some were behind " + steps
                               + ": pressed or turned too hard; smaller steps or less force may help"
                         : "no cell is inside out at the end, but some were behind " + steps);
     }
@@ -123,7 +123,7 @@ std::string summarize_defects(Program& program, const RunReport& report) {
 std::string steps_text(const RunReport& report) {
     const std::uint64_t steps = report.steps.empty() ? 0 : report.steps.back().step;
     const std::uint64_t lost = steps - report.steps.size();
-    return counted(static_cast<std::int64_t>(steps), "step", "steps")
+    return counted(steps, "step", "steps")
            + (lost > 0 ? " (nothing is known of " + std::to_string(lost) + ")" : "");
 }
 
@@ -172,9 +172,8 @@ void summarize(Program& program, const RunReport& report, const std::string& fol
         defects += defects.empty() ? " with deep penetration" : " and deep penetration";
     }
     program.say(std::string(verdict_name(report.verdict)) + defects + ": "
-                + counted(static_cast<std::int64_t>(report.frames.size()), "frame", "frames")
-                + " in " + folder + ", " + steps_text(report) + ", " + readable_time(report.seconds)
-                + parts_text(report));
+                + counted(report.frames.size(), "frame", "frames") + " in " + folder + ", "
+                + steps_text(report) + ", " + readable_time(report.seconds) + parts_text(report));
 }
 
 Verdict explain_scene(Program& program, const Arguments& arguments, const simulator::Scene& scene) {
@@ -210,6 +209,7 @@ simulator::Scene read_inputs(Program& program, const Arguments& arguments) {
     }
     inputs.push_back({"the scene", arguments.scene});
     program.require_apart(inputs, {});
+    refuse_folder(arguments.scene);
     simulator::Scene scene;
     simulator::agree(arguments.ranks.get(), [&] { scene = runs::read_scene(arguments.scene); });
     const std::string text = runs::scene_text(scene);
@@ -229,11 +229,11 @@ RunReport run_scene(Program& program, const Arguments& arguments, const simulato
     runs::RunCallbacks callbacks;
     callbacks.should_stop = stop_requested;
     callbacks.on_frame = [&](const FrameReport& frame, const StepReport& step) {
-        if (frame.frame > 0
-            && progress.update(frame.frame, counted(step.iterations, "iteration", "iterations"))) {
-            heartbeat.spoken();
+        if (frame.frame > 0) {
+            progress.update(frame.frame, counted(step.iterations, "iteration", "iterations"));
         }
         heartbeat.begin("frame " + std::to_string(frame.frame + 1));
+        heartbeat.spoken();  // where frames are quick their progress is enough
     };
     const auto say = [&](const std::string& line) {
         program.say(line);

@@ -1,6 +1,7 @@
 #include "common/heartbeat.h"
 #include "common/program.h"
 #include "common/progress.h"
+#include "common/scene_argument.h"
 #include "common/values.h"
 
 #include <pent/counted.h>
@@ -208,11 +209,10 @@ Verdict prepare(Program& program, const Arguments& arguments) {
     const auto levels =
         std::ranges::count(state->units, pent::study::UnitKind::Reference, &UnitState::kind);
     const auto done = std::ranges::count(state->units, true, &UnitState::is_done);
-    program.say("prepared: "
-                + counted(static_cast<std::int64_t>(state->units.size()), "unit", "units")
-                + ", of which " + std::to_string(levels) + " are the reference and "
-                + std::to_string(done) + " done; run each by pent-study -o " + folder
-                + " --run N, then pent-study -o " + folder + " --collect");
+    program.say("prepared: " + counted(state->units.size(), "unit", "units") + ", of which "
+                + std::to_string(levels) + " are the reference and " + std::to_string(done)
+                + " done; run each by pent-study -o " + folder + " --run N, then pent-study -o "
+                + folder + " --collect");
     return Verdict::Finished;
 }
 
@@ -260,6 +260,7 @@ Verdict body(Program& program, Arguments& arguments) {
     arguments.study.threads = program.common().threads;
     arguments.study.created_by = program.name_and_version();
     arguments.study.programs = fs::read_symlink("/proc/self/exe").parent_path();
+    pent::apps::refuse_folder(arguments.study.scene);
     const bool is_part = arguments.list_runs || arguments.run > 0 || arguments.collect;
     if (is_part) {
         program.require_apart(

@@ -98,9 +98,8 @@ Verdict export_run(Program& program, const Arguments& arguments) {
     std::array<char, 96> text{};
     std::snprintf(text.data(), text.size(), ", %.1f MB; positions are right to %.2g m",
                   static_cast<double>(report.bytes) / 1e6, report.largest_error);
-    program.say("finished: "
-                + counted(static_cast<std::int64_t>(options.frames.size()), "frame", "frames")
-                + " in " + arguments.output + text.data());
+    program.say("finished: " + counted(options.frames.size(), "frame", "frames") + " in "
+                + arguments.output + text.data());
     return Verdict::Finished;
 }
 

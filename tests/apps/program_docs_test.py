@@ -92,7 +92,7 @@ class ProgramDocs(unittest.TestCase):
         heads = re.findall(r"^\.TP\n(.*)$", page, re.M)
         self.assertEqual([head for head in heads if "Needs:" in head or "Excludes:" in head], [])
         self.assertIn("Of a run folder with several bodies (needs --space-time)\n", page)
-        self.assertRegex(page, r"NUMBER, default 1\\fR\n.*\(not with input\)\n")
+        self.assertRegex(page, r"NUMBER above 0, default 1\\fR\n.*\(not with input\)\n")
         self.assertIn("(not with --extrude, --profile)\n", page)
 
     @unittest.skipUnless(shutil.which("groff"), "no groff")

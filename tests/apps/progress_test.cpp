@@ -15,6 +15,14 @@ TEST(ReadableTime, UsesTheUnitsThatAPersonWould) {
     EXPECT_EQ(readable_time(7620), "2 h 07 min");
 }
 
+TEST(ReadableRate, HasThreeDigitsAndNoPowersOfTen) {
+    EXPECT_EQ(readable_rate(0.02134), "0.0213");
+    EXPECT_EQ(readable_rate(2.5), "2.5");
+    EXPECT_EQ(readable_rate(999.4), "999");
+    EXPECT_EQ(readable_rate(999.6), "1000");
+    EXPECT_EQ(readable_rate(11712.3), "11712");
+}
+
 TEST(Progress, PrintsPlainLinesWhenPipedAndNothingWhenQuiet) {
     testing::internal::CaptureStdout();
     {

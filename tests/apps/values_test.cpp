@@ -43,9 +43,8 @@ TEST(Values, AreNumbersWithinTheirBounds) {
 TEST(Values, HaveBoundsAsOneReadsThem) {
     const CLI::Validator memory = number(0.1, 1e9);
     EXPECT_EQ(said(memory, "4G"), "found \"4G\"; expected a number from 0.1 to 1000000000");
-    EXPECT_EQ(memory.get_description(), "FLOAT in [0.1 - 1000000000]");
-    EXPECT_EQ(whole_number(-1, std::int64_t{1} << 31).get_description(),
-              "INT in [-1 - 2147483648]");
+    EXPECT_EQ(memory.get_description(), "from 0.1 to 1000000000");
+    EXPECT_EQ(whole_number(-1, std::int64_t{1} << 31).get_description(), "from -1 to 2147483648");
 }
 
 TEST(Values, ArePositiveAndFinite) {

@@ -1,10 +1,12 @@
-"""Every script of scripts/ says what it does and what it takes, and does nothing else then.
+"""Every script of scripts/ says what it does and what it takes, and does nothing else then; and
+commands in pages may be copied as they are.
 
     scripts_test.py SOURCE
 """
 
 import os
 import pathlib
+import re
 import subprocess
 import sys
 import tempfile
@@ -51,6 +53,24 @@ class Scripts(unittest.TestCase):
                     self.assertEqual((run.returncode, run.stderr), (0, ""))
                     self.assertEqual(run.stdout.splitlines(), comment_of(script))
                     self.assertEqual(os.listdir(place), [])
+
+
+def commands_of(page: pathlib.Path) -> list[str]:
+    """Its indented lines of commands: blocks between fences are run by other tests."""
+    plain = re.sub(r"^```.*?^```$", "", page.read_text(), flags=re.M | re.S)
+    return re.findall(r"^    ((?:pent-|scripts/|mpirun |python3 |cmake ).*)$", plain, re.M)
+
+
+class Pages(unittest.TestCase):
+    def test_there_are_commands_in_some(self):
+        self.assertGreater(len(commands_of(SOURCE / "docs" / "mesher.md")), 40)
+
+    def test_what_is_said_behind_a_command_is_a_comment(self):
+        for page in [SOURCE / "README.md", *sorted((SOURCE / "docs").glob("*.md"))]:
+            for line in commands_of(page):
+                arguments = line.partition("#")[0].strip().partition(" ")[2].strip()
+                with self.subTest(page.name, line=line):
+                    self.assertIsNone(re.search(r" {2}", arguments))
 
 
 if __name__ == "__main__":
