@@ -130,7 +130,7 @@ class Reader(unittest.TestCase):
             self.assertTrue((attributes["body"] == number).all())
             for quantity in ("w", "speed", "strain", "force"):
                 made = sliced(DATA / "run", name, 4, color=quantity).attributes[quantity]
-                np.testing.assert_array_equal(attributes[quantity].astype(np.float32), made)
+                np.testing.assert_allclose(attributes[quantity], made, rtol=1e-14, atol=1e-15)
 
     def test_smooth_normals_are_those_of_the_body_with_its_edges(self):
         reader = opened(DATA / "run")
