@@ -119,16 +119,16 @@ PENT_PLUGIN_API const double* pent_mesh_strain(const pent_stored_mesh* mesh,
                                                const double* positions);
 
 /** A quantity of the cells at the vertices: its mean over the cells at each, by their volume at
- * rest. `values` are rows x cells; rows x vertices come back, and hold until this thread asks again.
- */
+ * rest. `values` are rows x cells; rows x vertices come back, and hold until this thread asks
+ * again. */
 PENT_PLUGIN_API const double* pent_mesh_means(const pent_stored_mesh* mesh,
                                               const double* values,
                                               int32_t rows);
 
 /** The colors in which pent-render shows a quantity ("body", "w", "speed", "strain", "force",
- * "reaction", "energy_density", or any other by its name): red, green, blue a value, 0..1, linear light. `low` and `high` get
- * the first and the last color; of "body" values are numbers of bodies, from 0. All numbers, and
- * high - low, are finite. They hold until this thread asks again. */
+ * "reaction", "energy_density", or any other by its name): red, green, blue a value, 0..1, linear
+ * light. `low` and `high` get the first and the last color; of "body" values are numbers of bodies,
+ * from 0. All numbers, and high - low, are finite. They hold until this thread asks again. */
 PENT_PLUGIN_API const float* pent_colors(
     const char* quantity, const double* values, int64_t count, double low, double high);
 PENT_PLUGIN_API int pent_free_mesh(pent_stored_mesh* mesh);

@@ -111,7 +111,8 @@ TEST_F(ReportFile, IsRefusedWithItsNameWhereItIsNotOne) {
     pent::test::expect_contains(error_with("{", "["), {"report.json: not the report of a run"});
 }
 
-// However long it takes to write, a run has nearly all of the time; people see it grow, if they can.
+// However long it takes to write, a run has nearly all of the time; people see it grow, if they
+// can.
 TEST(ReportPause, LeavesTheTimeToTheRun) {
     for (const double seconds : {0.0, 1e-3, 0.05, 0.2, 3.0, 60.0}) {
         const double pause = report_pause(seconds);

@@ -72,7 +72,8 @@ TEST(FieldColors, OfVectorsAreLengthsAndOfCellsMeans) {
     EXPECT_EQ(fields[0], heat());
 }
 
-// Two tetrahedra, the second twice as large: the mean by volume is a third of the first and two of the second.
+// Two tetrahedra, the second twice as large: the mean by volume is a third of the first and two of
+// the second.
 TEST(VertexMeans, GoByVolume) {
     SimplexMesh<3> mesh;
     mesh.positions.resize(3, 6);

@@ -13,8 +13,8 @@ namespace pent::mesher {
 namespace {
 
 // How far from zero a piece may be that a point lies on, in parts of the cells' scale: as near as
-// nearest_common_zero() comes. A hundred times as much or a thousandth of it make the same cells but
-// for a few.
+// nearest_common_zero() comes. A hundred times as much or a thousandth of it make the same cells
+// but for a few.
 constexpr double kOnPiece = 1e-6;
 
 // Pieces that meet at less than this angle (its cosine, 14 degrees) are one smooth surface: an edge

@@ -13,7 +13,8 @@ namespace pent::runs {
 /// every step anew, and in long runs takes seconds.
 ///
 /// @param seconds  That the last writing took.
-/// @return         At least 10, and so long that writing takes no more than a hundredth of the time.
+/// @return         At least 10, and so long that writing takes no more than a hundredth of the
+///                 time.
 [[nodiscard]] double report_pause(double seconds);
 
 }  // namespace pent::runs

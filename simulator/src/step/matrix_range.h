@@ -9,9 +9,9 @@
 namespace pent::simulator {
 
 /// How small and how large numbers get where the matrix inertia M + scale K of a scene is made, but
-/// for contact and springs. With bodies of nanometers, or of millions of kilometers, they are beyond
-/// what floats hold, by which parts of the matrix and of preconditioners are kept. Estimates, to a
-/// few powers of two, by the masses and the materials that there are.
+/// for contact and springs. With bodies of nanometers, or of millions of kilometers, they are
+/// beyond what floats hold, by which parts of the matrix and of preconditioners are kept.
+/// Estimates, to a few powers of two, by the masses and the materials that there are.
 class MatrixRange {
 public:
     /// @param dimension  Of the bodies.

@@ -22,9 +22,9 @@ struct SceneMeshes {
 template <int Dim>
 [[nodiscard]] SceneMeshes<Dim> read_meshes(const simulator::Scene& scene);
 
-/// Compares a mesh, wherever it comes from, with the scene. Throws an Error if it is placed so small
-/// or large that its volumes leave the range of double, or if its cells do not fit together where
-/// contact needs a closed surface; adds a warning if they do not and nothing needs one.
+/// Compares a mesh, wherever it comes from, with the scene. Throws an Error if it is placed so
+/// small or large that its volumes leave the range of double, or if its cells do not fit together
+/// where contact needs a closed surface; adds a warning if they do not and nothing needs one.
 ///
 /// @param mesh  One that validate() lets pass, before it is placed.
 template <int Dim>
