@@ -44,7 +44,7 @@ private:
 /// "0.8 s", "12 s", "3 min 05 s" or "2 h 07 min".
 [[nodiscard]] std::string readable_time(double seconds);
 
-/// "0.0213", "2.5" or "11700": three digits, and never a power of ten of what is 1 or more.
+/// "0.0213", "2.5" or "11712": three digits or, from 1000 on, all of the whole number.
 [[nodiscard]] std::string readable_rate(double per_second);
 
 }  // namespace pent::apps

@@ -105,40 +105,6 @@ void Simulation<Dim>::Stepper::evaluate_anew() {
 }
 
 template <int Dim>
-void Simulation<Dim>::Stepper::set_body(int body,
-                                        const Positions<Dim>& positions,
-                                        const Positions<Dim>& velocities) {
-    const auto range = bodies_.vertices(static_cast<std::size_t>(body));
-    Positions<Dim> all = current_.positions;
-    all.middleCols(range.begin, range.size) = positions;
-    refuse_crossings(all, held_);
-    // With what it carries, which is about to fall.
-    std::vector<std::size_t> moved = neighbors_of_body(static_cast<std::size_t>(body));
-    moved.push_back(static_cast<std::size_t>(body));
-    current_.positions = all;  // copied: hosts see the arrays where they lie
-    current_.velocities.middleCols(range.begin, range.size) = velocities;
-    wake(moved);
-    forget_history();  // of where it was taken from
-    evaluate_anew();
-}
-
-template <int Dim>
-void Simulation<Dim>::Stepper::set_obstacles(Scene scene, const std::vector<std::size_t>& woken) {
-    check(scene);
-    auto contact = std::make_unique<ContactPotential<Dim>>(workers_, scene, bodies_, held_);
-    static_cast<void>(contact->set_time(last_step()));
-    contact->set_stiffness(energy_.contact->stiffness());
-    const std::vector<contact::Crossing> crossings = contact->find_crossings(current_.positions);
-    if (!crossings.empty()) {
-        throw crossing_error(bodies_, *contact, crossings, current_.positions);
-    }
-    scene_ = std::move(scene);
-    energy_.replace_contact(std::move(contact), scene_);
-    wake(woken);
-    evaluate_anew();
-}
-
-template <int Dim>
 Snapshot<Dim> Simulation<Dim>::Stepper::save() const {
     return {.positions = current_.positions,
             .velocities = current_.velocities,
