@@ -47,6 +47,7 @@ struct Lanes<Counted<Scalar>> {
 
     static Real load(const double* from) { return Real(*from); }
     static void store(Real value, Scalar* to) { *to = value.value; }
+    static Real load_stored(const Scalar* from) { return Real(*from); }
     static Real select(bool mask, Real yes, Real no) { return mask ? yes : no; }
     static bool any(bool mask) { return mask; }
     static Real root(Real value) { return Real::counted(One::root(value.value)); }

@@ -9,10 +9,14 @@
 namespace pent::simulator {
 namespace {  // NOLINT(google-build-namespaces): see kernel_lanes.h
 
-// The blocks of one pack of elements: [pair][block_entry(row, column)][lane].
+// One block of a pack of elements: [block_entry(row, column)][lane].
+template <typename Real, int Dim>
+using BlockLanes = typename Lanes<Real>::Number[Dim * Dim][Lanes<Real>::kCount];
+
+// All blocks of one pack of elements.
 template <typename Real, int Dim>
 struct BlockPack {
-    alignas(64) typename Lanes<Real>::Number at[kPairs<Dim>][Dim * Dim][Lanes<Real>::kCount];
+    alignas(64) BlockLanes<Real, Dim> at[kPairs<Dim>];
 };
 
 // Place of the pair (a, b), a <= b, in the order (0,0) (0,1) .. (0,Dim) (1,1) ..
@@ -71,10 +75,15 @@ RotatedHessian<Real, Dim> rotated_hessian(const Tensor<Real, Dim>& F,
     return hessian;
 }
 
-template <typename Real, int Dim>
-Tensor<Real, Dim> hessian_block(const RotatedHessian<Real, Dim>& hessian,
-                                const Real (&beta_a)[Dim],
-                                const Real (&beta_b)[Dim]) {
+// Block (a, b), given to take(i, j, entry) row by row: that way K stays in registers, and nothing is
+// stored but what is asked for.
+//
+// @param IsSymmetric  The block of a corner with itself: take() gets its upper triangle only.
+template <bool IsSymmetric, typename Real, int Dim, typename Take>
+[[gnu::always_inline]] inline void hessian_block(const RotatedHessian<Real, Dim>& hessian,
+                                                 const Real (&beta_a)[Dim],
+                                                 const Real (&beta_b)[Dim],
+                                                 const Take& take) {
     Tensor<Real, Dim> K;
     for (int i = 0; i < Dim; ++i) {
         Real sum = hessian.stretch[i][i] * (beta_a[i] * beta_b[i]);
@@ -87,39 +96,59 @@ Tensor<Real, Dim> hessian_block(const RotatedHessian<Real, Dim>& hessian,
         }
         K[i][i] = sum;
     }
-    Tensor<Real, Dim> left;  // U K
+#pragma GCC unroll 4
     for (int i = 0; i < Dim; ++i) {
+        Real left[Dim];  // row i of U K
         for (int j = 0; j < Dim; ++j) {
-            Real sum = hessian.U[i][0] * K[0][j];
+            left[j] = hessian.U[i][0] * K[0][j];
             for (int k = 1; k < Dim; ++k) {
-                sum += hessian.U[i][k] * K[k][j];
+                left[j] += hessian.U[i][k] * K[k][j];
             }
-            left[i][j] = sum;
+        }
+#pragma GCC unroll 4
+        for (int j = IsSymmetric ? i : 0; j < Dim; ++j) {
+            Real sum = left[0] * hessian.U[j][0];
+            for (int k = 1; k < Dim; ++k) {
+                sum += left[k] * hessian.U[j][k];
+            }
+            take(i, j, sum);
         }
     }
-    Tensor<Real, Dim> block;  // U K U^T
-    for (int i = 0; i < Dim; ++i) {
-        for (int j = 0; j < Dim; ++j) {
-            Real sum = left[i][0] * hessian.U[j][0];
-            for (int k = 1; k < Dim; ++k) {
-                sum += left[i][k] * hessian.U[j][k];
-            }
-            block[i][j] = sum;
-        }
-    }
-    return block;
 }
 
 // Entries of a block as the matrix has them; symmetric ones to the bit, from the upper triangle.
-template <typename Real, int Dim, typename Stored>
-void store_block(const Tensor<Real, Dim>& block, bool is_symmetric, Stored& stored) {
+template <bool IsSymmetric, int Dim, typename Real>
+[[gnu::always_inline]] inline void store_entry(const Real& entry,
+                                               int i,
+                                               int j,
+                                               BlockLanes<Real, Dim>& block) {
+    if (!IsSymmetric || i <= j) {
+        Lanes<Real>::store(entry, block[block_entry<Dim>(i, j)]);
+    }
+    if (IsSymmetric && i < j) {
+        Lanes<Real>::store(entry, block[block_entry<Dim>(j, i)]);
+    }
+}
+
+template <typename Real, int Dim>
+void store_block(const Tensor<Real, Dim>& block, bool is_symmetric, BlockLanes<Real, Dim>& stored) {
     for (int i = 0; i < Dim; ++i) {
         for (int j = 0; j < Dim; ++j) {
-            const bool is_mirrored = is_symmetric && i > j;
-            Lanes<Real>::store(is_mirrored ? block[j][i] : block[i][j],
-                               stored[block_entry<Dim>(i, j)]);
+            if (is_symmetric) {
+                store_entry<true, Dim>(block[i][j], i, j, stored);
+            } else {
+                store_entry<false, Dim>(block[i][j], i, j, stored);
+            }
         }
     }
+}
+
+// The entry (i, j) of block (a, b) that has been stored, of either triangle.
+template <typename Real, int Dim>
+Real stored_entry(const BlockPack<Real, Dim>& pack, int a, int b, int i, int j) {
+    return Lanes<Real>::load_stored(a <= b
+                                        ? pack.at[pair_index<Dim>(a, b)][block_entry<Dim>(i, j)]
+                                        : pack.at[pair_index<Dim>(b, a)][block_entry<Dim>(j, i)]);
 }
 
 // All pairs of corners. Rest gradients add up to zero, so the blocks of corner 0 follow from the
@@ -128,43 +157,38 @@ template <typename Real, int Dim>
 void hessian_blocks(const RotatedHessian<Real, Dim>& hessian,
                     const Real& scale,
                     BlockPack<Real, Dim>& pack) {
-    using Number = typename Lanes<Real>::Number;
-    const Real zero = Real(Number(0));
-    Tensor<Real, Dim> first[Dim + 1];
-    for (Tensor<Real, Dim>& block : first) {
-        for (int i = 0; i < Dim; ++i) {
-            for (int j = 0; j < Dim; ++j) {
-                block[i][j] = zero;
-            }
-        }
-    }
     for (int a = 1; a <= Dim; ++a) {
         Real beta_a[Dim];
         for (int i = 0; i < Dim; ++i) {
             beta_a[i] = scale * hessian.beta[a - 1][i];
         }
-        for (int b = a; b <= Dim; ++b) {
-            const Tensor<Real, Dim> block = hessian_block(hessian, beta_a, hessian.beta.at[b - 1]);
-            store_block(block, b == a, pack.at[pair_index<Dim>(a, b)]);
-            for (int i = 0; i < Dim; ++i) {
-                for (int j = 0; j < Dim; ++j) {
-                    first[b][i][j] -= block[i][j];
-                    if (b != a) {
-                        first[a][i][j] -= block[j][i];
-                    }
+        auto& diagonal = pack.at[pair_index<Dim>(a, a)];
+        hessian_block<true>(hessian, beta_a, hessian.beta.at[a - 1],
+                            [&](int i, int j, const Real& entry) {
+                                store_entry<true, Dim>(entry, i, j, diagonal);
+                            });
+        for (int b = a + 1; b <= Dim; ++b) {
+            auto& block = pack.at[pair_index<Dim>(a, b)];
+            hessian_block<false>(hessian, beta_a, hessian.beta.at[b - 1],
+                                 [&](int i, int j, const Real& entry) {
+                                     store_entry<false, Dim>(entry, i, j, block);
+                                 });
+        }
+    }
+    for (int i = 0; i < Dim; ++i) {
+        for (int j = 0; j < Dim; ++j) {
+            Real of_corner_0 = Real(typename Lanes<Real>::Number(0));
+            for (int b = 1; b <= Dim; ++b) {
+                Real sum = stored_entry(pack, 1, b, i, j);
+                for (int a = 2; a <= Dim; ++a) {
+                    sum += stored_entry(pack, a, b, i, j);
                 }
+                store_entry<false, Dim>(-sum, i, j, pack.at[pair_index<Dim>(0, b)]);
+                of_corner_0 += sum;
             }
+            store_entry<true, Dim>(of_corner_0, i, j, pack.at[0]);
         }
     }
-    for (int b = 1; b <= Dim; ++b) {
-        store_block(first[b], false, pack.at[pair_index<Dim>(0, b)]);
-        for (int i = 0; i < Dim; ++i) {
-            for (int j = 0; j < Dim; ++j) {
-                first[0][i][j] -= first[b][i][j];
-            }
-        }
-    }
-    store_block(first[0], true, pack.at[0]);
 }
 
 // Element after element, all blocks of one before the next: neighbors in a pack share blocks, and

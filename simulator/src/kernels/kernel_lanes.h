@@ -19,6 +19,7 @@ struct Lanes {
 
     static Real load(const double* from) { return Real::load(from); }
     static void store(const Real& value, Number* to) { value.store(to); }
+    static Real load_stored(const Number* from) { return Real::load(from); }
     static Real select(const Mask& mask, const Real& yes, const Real& no) {
         return pent::select(mask, yes, no);
     }
@@ -41,6 +42,7 @@ struct OneLane {
 
     static Scalar load(const double* from) { return static_cast<Scalar>(*from); }
     static void store(Scalar value, Scalar* to) { *to = value; }
+    static Scalar load_stored(const Scalar* from) { return *from; }
     static Scalar select(bool mask, Scalar yes, Scalar no) { return mask ? yes : no; }
     static bool any(bool mask) { return mask; }
     static Scalar root(Scalar value) {

@@ -47,17 +47,6 @@ struct Stress {
 };
 
 template <typename Real, int Dim>
-Tensor<Real, Dim> identity() {
-    Tensor<Real, Dim> matrix;
-    for (int i = 0; i < Dim; ++i) {
-        for (int j = 0; j < Dim; ++j) {
-            matrix[i][j] = Real(i == j ? 1.0F : 0.0F);
-        }
-    }
-    return matrix;
-}
-
-template <typename Real, int Dim>
 Real norm_squared(const Tensor<Real, Dim>& A) {
     Real sum = A[0][0] * A[0][0];
     for (int i = 0; i < Dim; ++i) {

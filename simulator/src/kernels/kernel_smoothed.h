@@ -153,7 +153,9 @@ EnergyHessian<Real, Dim> energy_hessian(const RotatedHessian<Real, Dim>& hessian
             beta[i] = scale * hessian.beta[l][i];
         }
         for (int m = l; m < Dim; ++m) {
-            result.at[l][m] = hessian_block(hessian, beta, hessian.beta.at[m]);
+            hessian_block<false>(
+                hessian, beta, hessian.beta.at[m],
+                [&](int i, int j, const Real& entry) { result.at[l][m][i][j] = entry; });
         }
     }
     return result;

@@ -87,7 +87,24 @@ Cofactor<Real, 4> cofactor(const Tensor<Real, 4>& F) {
     return result;
 }
 
-/// Where Jacobi iterations stop and where a singular value counts as zero, relative to the largest.
+template <typename Real, int Dim>
+Tensor<Real, Dim> identity() {
+    Tensor<Real, Dim> matrix;
+    for (int i = 0; i < Dim; ++i) {
+        for (int j = 0; j < Dim; ++j) {
+            matrix[i][j] = Real(i == j ? 1.0F : 0.0F);
+        }
+    }
+    return matrix;
+}
+
+/// What counts as zero:
+///
+///     kOrthogonal     the cosine between two columns, or an off-diagonal entry beside the largest
+///                     entry, at which Jacobi iterations stop
+///     kRankDeficient  a singular value beside the largest
+///     kLeastSquare    squares below it lose precision, or are zero
+///     kTiny           what keeps divisors from zero
 template <typename Number>
 struct Precise;
 template <>
@@ -95,12 +112,14 @@ struct Precise<float> {
     static constexpr float kOrthogonal = 3e-7F;
     static constexpr float kRankDeficient = 1e-5F;
     static constexpr float kTiny = 1e-37F;
+    static constexpr float kLeastSquare = 1e-36F;
 };
 template <>
 struct Precise<double> {
     static constexpr double kOrthogonal = 4e-16;
     static constexpr double kRankDeficient = 1e-13;
     static constexpr double kTiny = 1e-300;
+    static constexpr double kLeastSquare = 1e-300;
 };
 
 inline constexpr int kMaxSweeps = 12;
@@ -122,8 +141,12 @@ struct PlaneRotation {
 // The rotation that makes a symmetric 2 x 2 matrix diagonal, by at most an eighth of a turn, in
 // some lanes; none in the others.
 //
-// @param difference  Of its diagonal, the second entry less the first.
-// @param twice  The entry beside the diagonal, times 2.
+// With d and t the difference and twice the off-diagonal entry, h = |d| + sqrt(d^2 + t^2) gives its
+// tangent t / h, so cosine and sine are h and t over sqrt(h^2 + t^2): one division and two roots.
+//
+// @param difference  Of the diagonal, the second entry less the first.
+// @param twice       The entry beside the diagonal, times 2; where lanes are turned, neither its
+//                    square nor those of the others leave the range of the type.
 template <typename Real>
 PlaneRotation<Real> diagonalizing_rotation(const Real& difference,
                                            const Real& twice,
@@ -132,12 +155,12 @@ PlaneRotation<Real> diagonalizing_rotation(const Real& difference,
     using Number = typename L::Number;
     const Real zero = Real(Number(0));
     const Real one = Real(Number(1));
-    const Real sign = L::select(difference < zero, -one, one);
-    const Real root = L::root(difference * difference + twice * twice);
-    const Real tangent = L::select(
-        is_turned, sign * twice / (L::abs(difference) + root + Real(Precise<Number>::kTiny)), zero);
-    const Real cosine = one / L::root(one + tangent * tangent);
-    return {cosine, tangent * cosine};
+    const Real twice_squared = twice * twice;
+    const Real h = L::abs(difference) + L::root(difference * difference + twice_squared);
+    const Real inverse = one / L::root(h * h + twice_squared);
+    const Real signed_twice = L::select(difference < zero, -twice, twice);
+    return {L::select(is_turned, h * inverse, one),
+            L::select(is_turned, signed_twice * inverse, zero)};
 }
 
 // Turns columns i and j of A by the plane rotation (c, s).
@@ -148,6 +171,38 @@ void turn_columns(Tensor<Real, Dim>& A, int i, int j, const Real& c, const Real&
         const Real right = A[row][j];
         A[row][i] = c * left - s * right;
         A[row][j] = s * left + c * right;
+    }
+}
+
+template <typename Real, int Dim>
+void turn_rows(Tensor<Real, Dim>& A, int i, int j, const Real& c, const Real& s) {
+    for (int column = 0; column < Dim; ++column) {
+        const Real upper = A[i][column];
+        const Real lower = A[j][column];
+        A[i][column] = c * upper - s * lower;
+        A[j][column] = s * upper + c * lower;
+    }
+}
+
+// The largest absolute entry; a tiny number if all are zero.
+template <typename Real, int Dim>
+Real largest_entry(const Tensor<Real, Dim>& A) {
+    using L = Lanes<Real>;
+    Real largest = Real(Precise<typename L::Number>::kTiny);
+    for (int i = 0; i < Dim; ++i) {
+        for (int j = 0; j < Dim; ++j) {
+            largest = L::max(largest, L::abs(A[i][j]));
+        }
+    }
+    return largest;
+}
+
+template <typename Real, int Dim>
+void multiply_by(const Real& factor, Tensor<Real, Dim>& A) {
+    for (int i = 0; i < Dim; ++i) {
+        for (int j = 0; j < Dim; ++j) {
+            A[i][j] *= factor;
+        }
     }
 }
 
@@ -214,24 +269,33 @@ void complete_basis(Tensor<Real, Dim>& U, const Real (&sigma)[Dim], int lane) {
     }
 }
 
-// One round of one-sided Jacobi: makes columns i and i ^ Round of F orthogonal, for all i.
-// Rotations of one round share no column, so that none waits for the roots of another.
+// A sweep of Jacobi takes every pair of columns once, in rounds of pairs (i, i ^ Round). Pairs of one
+// round share no column, so that none waits for the roots of another.
+template <int Round, int Dim, typename Visit>
+[[gnu::always_inline]] inline void for_each_pair(const Visit& visit) {
+#pragma GCC unroll 4
+    for (int i = 0; i < Dim; ++i) {
+        const int j = i ^ Round;
+        if (j > i && j < Dim) {
+            visit(i, j);
+        }
+    }
+}
+
+// One round of one-sided Jacobi: makes pairs of columns of F orthogonal. The largest entry of F is
+// near 1, so that what is too small to be squared belongs to columns of no size.
 //
 // @return  Whether any was not orthogonal yet.
 template <int Round, typename Real, int Dim>
 [[gnu::always_inline]] inline bool turn_round(Tensor<Real, Dim>& F, Tensor<Real, Dim>& rest) {
     using L = Lanes<Real>;
     using Number = typename L::Number;
+    constexpr Number kOrthogonal = Precise<Number>::kOrthogonal;
     Real difference[Dim];  // of the first column of each pair
     Real twice[Dim];
     typename L::Mask is_turned[Dim];
     typename L::Mask is_any_turned = Real(Number(1)) < Real(Number(0));
-#pragma GCC unroll 4
-    for (int i = 0; i < Dim; ++i) {
-        const int j = i ^ Round;
-        if (j <= i || j >= Dim) {
-            continue;
-        }
+    for_each_pair<Round, Dim>([&](int i, int j) {
         Real a = F[0][i] * F[0][i];
         Real b = F[0][j] * F[0][j];
         Real c = F[0][i] * F[0][j];
@@ -242,23 +306,19 @@ template <int Round, typename Real, int Dim>
         }
         difference[i] = b - a;
         twice[i] = c + c;
-        is_turned[i] = L::abs(c) > Real(Precise<Number>::kOrthogonal) * L::root(a) * L::root(b);
+        is_turned[i] = c * c > L::max(Real(kOrthogonal * kOrthogonal) * a * b,
+                                      Real(Precise<Number>::kLeastSquare));
         is_any_turned = is_any_turned || is_turned[i];
-    }
+    });
     if (!L::any(is_any_turned)) {
         return false;
     }
-#pragma GCC unroll 4
-    for (int i = 0; i < Dim; ++i) {
-        const int j = i ^ Round;
-        if (j <= i || j >= Dim) {
-            continue;
-        }
+    for_each_pair<Round, Dim>([&](int i, int j) {
         const PlaneRotation<Real> rotation =
             diagonalizing_rotation(difference[i], twice[i], is_turned[i]);
         turn_columns(F, i, j, rotation.cosine, rotation.sine);
         turn_columns(rest, i, j, rotation.cosine, rotation.sine);
-    }
+    });
     return true;
 }
 
@@ -272,6 +332,8 @@ SignedSvd<Real, Dim> signed_svd(Tensor<Real, Dim> F, Tensor<Real, Dim> rest) {
     using Limits = Precise<Number>;
     const Real one = Real(Number(1));
     const Real tiny = Real(Limits::kTiny);
+    const Real scale = largest_entry(F);
+    multiply_by(one / scale, F);
     bool is_turned = true;
     for (int sweep = 0; sweep < kMaxSweeps && is_turned; ++sweep) {
         is_turned = turn_round<1>(F, rest);
@@ -310,7 +372,7 @@ SignedSvd<Real, Dim> signed_svd(Tensor<Real, Dim> F, Tensor<Real, Dim> rest) {
     for (int j = 0; j < Dim; ++j) {
         const Real factor = L::select(svd.sigma[j] == smallest, pending, one);
         pending = L::select(svd.sigma[j] == smallest, one, pending);
-        svd.sigma[j] *= factor;
+        svd.sigma[j] *= factor * scale;
         for (int row = 0; row < Dim; ++row) {
             svd.U[row][j] *= factor;
         }
@@ -358,6 +420,36 @@ Real has_negative_pivot(Tensor<Real, Dim> A) {
     return found;
 }
 
+// One round of two-sided Jacobi: makes the entries of A zero where the pairs meet. The largest entry
+// of A is near 1.
+//
+// @return  Whether any was not zero yet.
+template <int Round, typename Real, int Dim>
+[[gnu::always_inline]] inline bool diagonalize_round(Tensor<Real, Dim>& A, Tensor<Real, Dim>& Q) {
+    using L = Lanes<Real>;
+    using Number = typename L::Number;
+    PlaneRotation<Real> rotations[Dim];  // of the first row of each pair
+    typename L::Mask is_any_turned = Real(Number(1)) < Real(Number(0));
+    for_each_pair<Round, Dim>([&](int i, int j) {
+        const auto is_turned = L::abs(A[i][j]) > Real(Precise<Number>::kOrthogonal);
+        is_any_turned = is_any_turned || is_turned;
+    });
+    if (!L::any(is_any_turned)) {
+        return false;
+    }
+    for_each_pair<Round, Dim>([&](int i, int j) {
+        const auto is_turned = L::abs(A[i][j]) > Real(Precise<Number>::kOrthogonal);
+        rotations[i] = diagonalizing_rotation(A[j][j] - A[i][i], A[i][j] + A[i][j], is_turned);
+    });
+    for_each_pair<Round, Dim>([&](int i, int j) {
+        turn_columns(A, i, j, rotations[i].cosine, rotations[i].sine);
+        turn_columns(Q, i, j, rotations[i].cosine, rotations[i].sine);
+    });
+    for_each_pair<Round, Dim>(
+        [&](int i, int j) { turn_rows(A, i, j, rotations[i].cosine, rotations[i].sine); });
+    return true;
+}
+
 /// The symmetric matrix with filtered eigenvalues; untouched if clamping has nothing to do.
 ///
 /// Eigenvectors by two-sided Jacobi [golub2013, 8.5].
@@ -370,55 +462,36 @@ Tensor<Real, Dim> filtered(const Tensor<Real, Dim>& matrix, Filter filter, Real&
     if (filter == Filter::None) {
         return matrix;
     }
-    const Real zero = Real(Number(0));
-    const Real one = Real(Number(1));
     const Real is_negative = has_negative_pivot(matrix);
-    if (!L::any(is_negative > zero)) {
+    if (!L::any(is_negative > Real(Number(0)))) {
         return matrix;
     }
     changed = L::max(changed, is_negative);
+    const Real scale = largest_entry(matrix);
     Tensor<Real, Dim> A = matrix;
-    Tensor<Real, Dim> Q;
-    Real scale = zero;
-    for (int i = 0; i < Dim; ++i) {
-        for (int j = 0; j < Dim; ++j) {
-            Q[i][j] = i == j ? one : zero;
-            scale = L::max(scale, L::abs(A[i][j]));
-        }
-    }
-    const Real negligible = Real(Precise<Number>::kOrthogonal) * scale;
-    bool is_diagonal = false;
-    for (int sweep = 0; sweep < kMaxSweeps && !is_diagonal; ++sweep) {
-        is_diagonal = true;
-        for (int i = 0; i < Dim; ++i) {
-            for (int j = i + 1; j < Dim; ++j) {
-                const auto is_turned = L::abs(A[i][j]) > negligible;
-                if (!L::any(is_turned)) {
-                    continue;
-                }
-                is_diagonal = false;
-                const auto [cosine, sine] =
-                    diagonalizing_rotation(A[j][j] - A[i][i], A[i][j] + A[i][j], is_turned);
-                turn_columns(A, i, j, cosine, sine);
-                for (int k = 0; k < Dim; ++k) {
-                    const Real upper = A[i][k];
-                    const Real lower = A[j][k];
-                    A[i][k] = cosine * upper - sine * lower;
-                    A[j][k] = sine * upper + cosine * lower;
-                }
-                turn_columns(Q, i, j, cosine, sine);
-            }
+    multiply_by(Real(Number(1)) / scale, A);
+    Tensor<Real, Dim> Q = identity<Real, Dim>();
+    bool is_turned = true;
+    for (int sweep = 0; sweep < kMaxSweeps && is_turned; ++sweep) {
+        is_turned = diagonalize_round<1>(A, Q);
+        if constexpr (Dim > 2) {
+            is_turned |= diagonalize_round<2>(A, Q);
+            is_turned |= diagonalize_round<3>(A, Q);
         }
     }
     Tensor<Real, Dim> result;
-    for (int i = 0; i < Dim; ++i) {
-        for (int j = i; j < Dim; ++j) {
-            Real sum = zero;
-            for (int k = 0; k < Dim; ++k) {
-                sum += filtered(A[k][k], filter, changed) * Q[i][k] * Q[j][k];
+    for (int k = 0; k < Dim; ++k) {
+        const Real value = scale * filtered(A[k][k], filter, changed);
+        for (int i = 0; i < Dim; ++i) {
+            const Real part = value * Q[i][k];
+            for (int j = i; j < Dim; ++j) {
+                result[i][j] = k == 0 ? part * Q[j][k] : result[i][j] + part * Q[j][k];
             }
-            result[i][j] = sum;
-            result[j][i] = sum;
+        }
+    }
+    for (int i = 0; i < Dim; ++i) {
+        for (int j = 0; j < i; ++j) {
+            result[i][j] = result[j][i];
         }
     }
     return result;
