@@ -22,12 +22,12 @@ public:
     Growth(const AggregateNodes<Dim>& nodes, double size)
         : nodes_(&nodes), size_(size), owner_(nodes.links.size(), kNone), seen_(owner_) {}
 
-    // From seeds on, each beside what is there.
+    // The queue of seeds grows while it is worked off; each component of the graph begins one.
     Aggregates run() {
         for (std::uint32_t node = 0; node < owner_.size(); ++node) {
             if (owner_[node] == kNone) {
                 seeds_ = {node};
-                // It grows meanwhile. NOLINTNEXTLINE(modernize-loop-convert)
+                // It grows in the loop. NOLINTNEXTLINE(modernize-loop-convert)
                 for (std::size_t next = 0; next < seeds_.size(); ++next) {
                     if (owner_[seeds_[next]] == kNone) {
                         grow(seeds_[next]);
@@ -41,21 +41,21 @@ public:
         return finish();
     }
 
-    // From pieces on, each node in one.
+    // Starts from pieces, which every node is in one of.
     Aggregates mend(std::vector<std::uint32_t> piece_of) {
         owner_ = std::move(piece_of);
         return finish();
     }
 
 private:
-    // Of pieces that hang together, none of them small.
+    // Makes pieces connected, and none of them small.
     Aggregates finish() {
         split();
         join_small_ones();
         return collect();
     }
 
-    // The nodes beside it that nobody has become seeds of the next.
+    // Grows one aggregate; the free nodes beside it become seeds.
     void grow(std::uint32_t seed) {
         const auto piece = static_cast<std::uint32_t>(weights_.size());
         weights_.push_back(0);
@@ -80,7 +80,7 @@ private:
         seeds_.insert(seeds_.end(), border.begin(), border.end());
     }
 
-    // Of those that are equally near, as in grids, the first.
+    // The node nearest to the centroid; of those that are equally near, as in grids, the first.
     [[nodiscard]] std::uint32_t nearest_of(const std::vector<std::uint32_t>& nodes,
                                            const Eigen::Matrix<double, Dim, 1>& sum,
                                            std::uint32_t piece) const {
@@ -106,9 +106,9 @@ private:
         return count == 0 ? 0 : (nodes_->places.col(node) - sum / count).squaredNorm();
     }
 
-    // Every node goes to the nearest of the aggregates that it or its neighbors are in: borders
-    // become planes halfway between middles, as Lloyd's method makes them. Returns whether any
-    // went.
+    // One round of Lloyd's method on a graph: every node goes to the aggregate with the nearest
+    // centroid among its own and those of its neighbors, so that borders become planes halfway
+    // between centroids. Returns whether any node went elsewhere.
     bool move_borders() {
         Positions<Dim> middles = Positions<Dim>::Zero(Dim, count());
         std::vector<double> dofs(members_.size(), 0.0);
@@ -137,7 +137,7 @@ private:
         return owner_ != before;
     }
 
-    // Each part of an aggregate that hangs together becomes one.
+    // Each connected component of an aggregate becomes an aggregate.
     void split() {
         std::vector<std::uint32_t> parts(owner_.size(), kNone);
         std::uint32_t count = 0;
@@ -181,7 +181,7 @@ private:
         }
     }
 
-    // What was left over between others joins the one it has most links with.
+    // Merges an aggregate into the one with which it has the most links.
     void join_neighbor(std::uint32_t piece) {
         std::vector<std::uint32_t> others;
         for (const std::uint32_t node : members_[piece]) {
@@ -214,7 +214,7 @@ private:
         weights_[piece] = 0;
     }
 
-    // By color: those that share no link follow one another.
+    // Numbers what is not empty by color: aggregates that share no link follow one another.
     Aggregates collect() {
         const std::vector<std::uint32_t> colors =
             color_nodes(link_parts(nodes_->links, owner_, members_.size()));
@@ -241,7 +241,7 @@ private:
     const AggregateNodes<Dim>* nodes_;
     double size_;
     std::vector<std::uint32_t> owner_;  // of each node
-    std::vector<std::uint32_t> seen_;   // the last whose border a node was in
+    std::vector<std::uint32_t> seen_;   // the last aggregate that had a node in its border
     std::vector<std::uint32_t> seeds_;
     std::vector<std::vector<std::uint32_t>> members_;
     std::vector<double> weights_;  // of the aggregates

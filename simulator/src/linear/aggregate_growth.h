@@ -11,32 +11,33 @@
 
 namespace pent::simulator {
 
-/// A relative difference that is none: rounding, which instruction sets and compilers do each in
-/// their own way, does not decide.
+/// What differs relatively by less counts as equal, so that rounding, in which compilers and
+/// instruction sets differ, decides nothing.
 inline constexpr double kTie = 1e-9;
 
-/// What aggregates grow from.
+/// The graph that aggregates grow on.
 template <int Dim>
 struct AggregateNodes {
     Links links;
-    Positions<Dim> places;        ///< m
-    std::vector<double> weights;  ///< What each counts for the size of an aggregate.
-    std::vector<double> dofs;     ///< In each.
+    Positions<Dim> places;        ///< Of the nodes, m.
+    std::vector<double> weights;  ///< What each node counts toward the size of an aggregate.
+    std::vector<double> dofs;     ///< How many each node stands for.
 };
 
-/// Connected, compact aggregates, each from a seed beside those that are there, always by what is
-/// nearest to its middle. Then borders move until they are halfway between middles.
+/// Connected, compact aggregates by greedy growth: each starts from a seed beside those made before
+/// it and goes on taking the adjacent node that is nearest to its centroid. Then, as in Lloyd's
+/// method, borders move until they are halfway between centroids.
 ///
-/// @param size  What nodes of an aggregate weigh together, about.
-/// @return      By color: those that share no link follow one another.
+/// @param size  About the weight of an aggregate.
+/// @return      Numbered by color: aggregates that share no link follow one another.
 template <int Dim>
 [[nodiscard]] Aggregates grow_aggregates(const AggregateNodes<Dim>& nodes, double size);
 
-/// Aggregates from pieces that are there: the parts of each that hang together; what is small joins
-/// what it has most links with.
+/// Aggregates from a given partition: the connected components of each piece, where one that is
+/// small joins the neighbor with which it has the most links.
 ///
-/// @param piece_of  A number of each node's piece.
-/// @return          As above.
+/// @param piece_of  The piece of each node.
+/// @return          Numbered as above.
 template <int Dim>
 [[nodiscard]] Aggregates mend_aggregates(const AggregateNodes<Dim>& nodes,
                                          double size,

@@ -23,7 +23,8 @@ void for_each_below(const AggregatePattern& pattern, const Visit& visit) {
     }
 }
 
-// As long as the next row is linked to none of the batch.
+// Greedily: a batch ends before the first row that is linked to one of its rows. Aggregates are
+// numbered by color, so there are about as many batches as colors.
 void find_batches(AggregatePattern& pattern) {
     pattern.batches = {0};
     for (std::int64_t row = 0; row < pattern.rows(); ++row) {
@@ -37,7 +38,7 @@ void find_batches(AggregatePattern& pattern) {
     pattern.batches.push_back(pattern.rows());
 }
 
-// By columns, from one row after the other.
+// Transposes the lower triangle: a counting sort of its blocks by column.
 void list_above(AggregatePattern& pattern) {
     const auto rows = static_cast<std::size_t>(pattern.rows());
     pattern.above_start.assign(rows + 1, 0);
@@ -56,8 +57,8 @@ void list_above(AggregatePattern& pattern) {
     });
 }
 
-// @param for_each_link  Calls its argument with every pair of children that share a block, once at
-//                       least, one way round or both.
+// @param for_each_link  Calls its argument with every pair of children that share a block, in one
+//                       order or both; the first of a pair is of this rank.
 template <typename ForEachLink>
 AggregatePattern make_pattern_of(const Aggregates& aggregates, const ForEachLink& for_each_link) {
     const auto rows = static_cast<std::uint32_t>(aggregates.count());
@@ -91,7 +92,7 @@ void for_each_block(const Pattern& pattern, const Visit& visit) {
     }
 }
 
-// Of children, as kernels take them: coordinates, then the ratio.
+// Arms as GalerkinRow has them: of each child the coordinates, then the ratio.
 template <typename Scalar, int Dim>
 std::vector<Scalar, LineAllocator<Scalar>> numbers_of(const Workers& workers,
                                                       const Arms<Dim>& arms) {
@@ -110,11 +111,11 @@ std::vector<Scalar, LineAllocator<Scalar>> numbers_of(const Workers& workers,
     return numbers;
 }
 
-// Rows of aggregates one after the other, with the room that kernels need.
+// Makes one GalerkinRow after another, all with the same scratch.
 template <int Dim, int Rows, typename Scalar>
 class GalerkinRows {
 public:
-    // Of these rows at most.
+    // @param rows  That at() will be called for: they decide how much scratch is needed.
     GalerkinRows(const Aggregates& aggregates,
                  const Scalar* arms,
                  const AggregatePattern& pattern,
@@ -159,14 +160,16 @@ private:
     const Aggregates* aggregates_;
     const Scalar* arms_;
     const AggregatePattern* pattern_;
-    std::vector<std::uint32_t, LineAllocator<std::uint32_t>> places_;  // of the row's columns only
+    // By column; set only for those of the row at hand.
+    std::vector<std::uint32_t, LineAllocator<std::uint32_t>> places_;
     std::vector<std::uint32_t> touched_;
     std::vector<std::uint8_t> uses_;
     std::vector<Scalar, LineAllocator<Scalar>> scratch_;
 };
 
-// A = H + H^T: to the lower triangle of H, in place, what it has above its diagonal; what is
-// between ranks is whole. Each block is one thread's.
+// Completes A = P^T H P + (P^T H P)^T in place. Kernels have stored the lower triangle of P^T H P
+// in A and the upper one in `above`; the transposes of the latter, and of the diagonal blocks, are
+// added to A. Ghost columns are complete already. No two threads write to the same block.
 template <int Dim, typename Scalar>
 void add_transposed(const Workers& workers,
                     const BlockKernels& kernels,
@@ -190,7 +193,7 @@ void add_transposed(const Workers& workers,
     });
 }
 
-// @param kernel  Of A and the Scalar, for children of so many Rows.
+// @param kernel  The Galerkin kernel for this Scalar and for children of Rows unknowns.
 template <int Dim, int Rows, typename Scalar, typename Kernel>
 AggregateMatrix<Dim, Scalar> product_of(const Workers& workers,
                                         const BlockKernels& kernels,

@@ -13,24 +13,25 @@
 
 namespace pent::simulator {
 
-/// Which blocks of a symmetric matrix over aggregates are stored: its lower triangle.
-///
-/// There may be more columns than rows: those of other ranks, behind, whose blocks are stored, too.
+/// Which blocks of a symmetric matrix over aggregates are stored: its lower triangle, and all
+/// blocks in ghost columns, those of aggregates of other ranks, which are numbered behind the rows.
 struct AggregatePattern {
     AggregatePattern() = default;
-    /// @param linked  Columns of each row, increasing, from both triangles; the row itself, too.
+    /// @param linked  Columns of each row, increasing: those of both triangles, the row itself, and
+    ///                ghosts.
     /// @param ghosts  How many columns have no row.
     AggregatePattern(const std::vector<std::vector<std::uint32_t>>& linked, std::uint32_t ghosts);
 
     std::vector<std::int64_t> row_start;  ///< rows + 1 entries.
-    std::vector<std::uint32_t> columns;   ///< Of a row, increasing: up to itself, then of others.
+    std::vector<std::uint32_t> columns;   ///< Of a row, increasing: up to itself, then ghosts.
     std::vector<std::int64_t> diagonal;   ///< Index of the diagonal block of each row.
-    /// Blocks below the diagonal by columns: of column i those from above_start[i] on, of which
-    /// there are rows + 1, by their rows. Transposed they are what row i has above the diagonal.
-    std::vector<std::int64_t> above_start;
-    std::vector<std::uint32_t> above;          ///< Their indices.
-    std::vector<std::uint32_t> above_columns;  ///< Their rows: columns of their transposes.
-    /// Rows [batches[i], batches[i + 1]) share no block: sweeps take them at the same time.
+    /// The upper triangle, which is not stored: in row i the transposes of blocks above[k], in
+    /// columns above_columns[k], above_start[i] <= k < above_start[i + 1], by increasing column.
+    std::vector<std::int64_t> above_start;     ///< rows + 1 entries.
+    std::vector<std::uint32_t> above;          ///< Indices of stored blocks.
+    std::vector<std::uint32_t> above_columns;  ///< The rows that these are stored in.
+    /// Rows [batches[i], batches[i + 1]) are not linked to one another: sweeps relax them in
+    /// parallel.
     std::vector<std::int64_t> batches;
 
     std::uint32_t ghosts = 0;  ///< How many columns have no row.
@@ -42,7 +43,7 @@ struct AggregatePattern {
 };
 
 /// Calls visit(column, block, is_transposed) for all blocks of a row: those that are stored, then
-/// those above the diagonal, of which the transposes are.
+/// those above the diagonal, whose transposes are stored.
 template <typename Visit>
 void for_each_in_row(const AggregatePattern& pattern, std::uint32_t row, const Visit& visit) {
     for (std::int64_t k = pattern.row_start[row]; k < pattern.row_start[row + 1]; ++k) {
@@ -54,14 +55,15 @@ void for_each_in_row(const AggregatePattern& pattern, std::uint32_t row, const V
     }
 }
 
-/// Blocks of all pairs of aggregates whose children share a block; with `coupling` or null.
+/// A block for each pair of aggregates whose children share one, in `children` or in `coupling`,
+/// which may be null.
 [[nodiscard]] AggregatePattern make_aggregate_pattern(const Aggregates& aggregates,
                                                       const BlockPattern& children,
                                                       const BlockPattern* coupling);
 [[nodiscard]] AggregatePattern make_aggregate_pattern(const Aggregates& aggregates,
                                                       const AggregatePattern& children);
 
-/// An aggregate as kernels take it.
+/// An aggregate in the form that kernels take.
 template <int Dim>
 [[nodiscard]] AggregateChildren children_of(std::span<const std::uint32_t> members,
                                             const Arm<Dim>* arms) {
@@ -69,13 +71,14 @@ template <int Dim>
     return {members.data(), members.size(), arms->x.data()};
 }
 
-/// A block of modes from the numbers that it is stored in.
+/// Reads a block over modes from its stored numbers, see block_order.h.
 template <int Size, typename Scalar>
 [[nodiscard]] Eigen::Matrix<Scalar, Size, Size> read_modes(const Scalar* stored) {
     return Eigen::Matrix<Scalar, Size, Size>::NullaryExpr([&](Eigen::Index i, Eigen::Index j) {
         return stored[mode_entry<Size>(static_cast<int>(i), static_cast<int>(j))];
     });
 }
+/// Stores a block in that order.
 template <int Size, typename Scalar>
 void write_modes(const Eigen::Matrix<Scalar, Size, Size>& block, Scalar* stored) {
     for (int j = 0; j < Size; ++j) {
@@ -85,7 +88,7 @@ void write_modes(const Eigen::Matrix<Scalar, Size, Size>& block, Scalar* stored)
     }
 }
 
-/// The kernels for matrices of modes of one precision.
+/// The kernels for matrices over modes, of one precision.
 template <typename Scalar>
 [[nodiscard]] const ModeKernels<Scalar>& mode_kernels_of(const BlockKernels& kernels) {
     if constexpr (sizeof(Scalar) == sizeof(float)) {
@@ -95,19 +98,21 @@ template <typename Scalar>
     }
 }
 
-/// Symmetric matrix over the rigid modes of aggregates; rows of this rank.
+/// Symmetric matrix over the rigid modes of aggregates: a coarse matrix. It has the rows of this
+/// rank.
 template <int Dim, typename Scalar>
 struct AggregateMatrix {
     static constexpr int kSize = kModes<Dim>;
     static constexpr std::int64_t kEntries = std::int64_t{kSize} * kSize;
     using Block = Eigen::Matrix<Scalar, kSize, kSize>;
     using Vector = Eigen::Matrix<Scalar, Eigen::Dynamic, 1>;
-    /// Room for ModeRows::shares of one product at a time.
+    /// Scratch for ModeRows::shares; one serves all levels, as nothing in it outlives a product or
+    /// sweep.
     using Shares = std::vector<Scalar, LineAllocator<Scalar>>;
 
     const AggregatePattern* pattern = nullptr;
-    std::vector<Scalar, LineAllocator<Scalar>> values;  ///< Blocks by mode_entry().
-    GhostExchange* ghosts = nullptr;  ///< Of the columns; null where nothing is shared.
+    std::vector<Scalar, LineAllocator<Scalar>> values;  ///< Blocks in the order of mode_entry().
+    GhostExchange* ghosts = nullptr;  ///< Of vectors over the columns; null without ranks.
 
     // A copy. NOLINTNEXTLINE(readability-const-return-type): so that nobody assigns to it
     [[nodiscard]] const Block block(std::int64_t index) const {
@@ -117,12 +122,12 @@ struct AggregateMatrix {
         write_modes<kSize>(block, values.data() + index * kEntries);
     }
 
-    /// All rows as kernels for blocks of children take them.
+    /// All rows in the form that Galerkin products take.
     [[nodiscard]] BlockRows<Scalar> all_rows() const {
         return {values.data(), pattern->row_start.data(), pattern->columns.data(), 0,
                 pattern->rows()};
     }
-    /// Rows [begin, end) as sweeps and products take them.
+    /// Rows [begin, end) in the form that sweeps and products take.
     [[nodiscard]] ModeRows<Scalar> mode_rows(std::int64_t begin,
                                              std::int64_t end,
                                              Shares& shares) const {
@@ -136,28 +141,29 @@ struct AggregateMatrix {
                 begin,
                 end};
     }
-    /// Makes room for the shares of this matrix, if there is less.
+    /// Enlarges `shares` to what this matrix needs.
     void fit(Shares& shares) const {
         shares.resize(std::max(shares.size(), kSize * pattern->columns.size()));
     }
 
-    /// Gives the entries of other ranks in a vector over the columns what they are there.
+    /// Halo exchange: sets the ghosts in a vector over the columns to what their ranks have.
     void update_ghosts(Vector& x) const {
         if (ghosts != nullptr) {
             ghosts->update(x.data(), kSize);
         }
     }
 
-    /// left = r - A x; x over the columns, the others over the rows.
+    /// left = r - A x; x over the columns, ghosts up to date, the others over the rows.
     ///
-    /// @param shares  That fit.
+    /// @param shares  After fit().
     void subtract_product(const Workers& workers,
                           const BlockKernels& kernels,
                           const Vector& r,
                           const Vector& x,
                           Vector& left,
                           Shares& shares) const;
-    /// The last part of it: left -= L^T x, by shares of x, and what other ranks have of A x.
+    /// Its second half: left -= L^T x, from the shares of x, and the products of ghost columns with
+    /// x.
     void subtract_above(const Workers& workers,
                         const BlockKernels& kernels,
                         const Vector& x,
@@ -165,11 +171,12 @@ struct AggregateMatrix {
                         Shares& shares) const;
 };
 
-/// The Galerkin product P^T A P, P being the rigid modes of the aggregates: a sum of T_i^T A_ij T_j
-/// over their children, in one order for any number of threads. Blocks between ranks are the
-/// transposes of one another but for rounding: each of both adds them up in an order of its own.
+/// The Galerkin product P^T A P, P being the rigid modes of the aggregates: sums of T_i^T A_ij T_j
+/// over their children, added in the same order for any number of threads. A block between ranks is
+/// on both; each adds it up in an order of its own, so that the two are transposes of one another
+/// but for rounding.
 ///
-/// @param arms     One a child, of other ranks, too.
+/// @param arms     One a child, ghosts among them.
 /// @param pattern  Of the product; must outlive it.
 template <int Dim, typename Scalar>
 [[nodiscard]] AggregateMatrix<Dim, Scalar> galerkin_product(const Workers& workers,

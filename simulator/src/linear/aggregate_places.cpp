@@ -10,7 +10,7 @@ namespace pent::simulator {
 
 namespace {
 
-// Gives children of other ranks the arms that they have there.
+// Gives ghosts among the children the arms that they have on their own ranks.
 template <int Dim>
 void update(Arms<Dim>& arms, GhostExchange& exchange) {
     Eigen::Matrix<double, Dim + 1, Eigen::Dynamic> told(Dim + 1,

@@ -11,16 +11,16 @@
 
 namespace pent::simulator {
 
-/// Where aggregates are.
+/// Where aggregates are, and how large.
 template <int Dim>
 struct AggregatePlaces {
-    Positions<Dim> middles;      ///< Dim x aggregates, m: means of their vertices.
-    std::vector<double> sizes;   ///< Root mean square distance of the vertices from the middle, m.
+    Positions<Dim> middles;      ///< Dim x aggregates, m: centroids of their vertices.
+    std::vector<double> sizes;   ///< Root mean square distance of the vertices from these, m.
     std::vector<double> counts;  ///< Of vertices.
 };
 
-/// The same of children: of aggregates, or of vertices, each of which is its own, of no size. What
-/// it is made from must outlive it.
+/// The same for the children of a level: aggregates or, on the finest level, vertices, each of
+/// which counts as an aggregate of size zero. What it is made from must outlive it.
 template <int Dim>
 class ChildPlaces {
 public:
@@ -41,13 +41,13 @@ private:
     const AggregatePlaces<Dim>* aggregates_ = nullptr;
 };
 
-/// @param children  One a child of this rank at least.
+/// @param children  Those of this rank at least.
 template <int Dim>
 [[nodiscard]] AggregatePlaces<Dim> places_of(const Workers& workers,
                                              const Aggregates& aggregates,
                                              const ChildPlaces<Dim>& children);
 
-/// One a child, those of other ranks among them.
+/// The arm of each child in its aggregate, ghosts among the children.
 ///
 /// @param places    Of the aggregates.
 /// @param exchange  Of the children; null where nothing is shared.

@@ -18,12 +18,13 @@ namespace pent::simulator {
 namespace {
 
 constexpr double kDofs = 29;     // of an aggregate
-constexpr double kChildren = 6;  // aggregates of an aggregate of aggregates
-// Length of aggregates along columns, which a smoother solves for as a whole, over width across.
+constexpr double kChildren = 6;  // of an aggregate of aggregates
+// Length of aggregates along columns over width across. The smoother solves whole columns, so that
+// aggregates need to resolve less along them.
 constexpr double kSlenderness = 1.9;
 
-// How high the layer of a dof is: how far it is from the nearest dof of its column, in units of its
-// distance from the nearest beside it; 1 where there is none of either, or none apart.
+// Height of the layer of each dof: its distance from the nearest dof linked to it within its column
+// over that from the nearest one in another; 1 where either is missing or zero.
 template <int Dim>
 std::vector<double> layer_heights(const Links& links,
                                   const std::vector<std::uint32_t>& column_start,
@@ -47,7 +48,7 @@ std::vector<double> layer_heights(const Links& links,
     return heights;
 }
 
-// Nodes that are parts of others, without weights.
+// The graph of parts of a graph; weights are 1.
 template <int Dim>
 AggregateNodes<Dim> nodes_of(const Aggregates& parts, const AggregateNodes<Dim>& children) {
     const auto count = static_cast<std::size_t>(parts.count());
@@ -65,9 +66,9 @@ AggregateNodes<Dim> nodes_of(const Aggregates& parts, const AggregateNodes<Dim>&
     return nodes;
 }
 
-// What the dofs of columns count for the size of an aggregate. Thin layers are coupled too strongly
-// to be told apart, so that less of them is as much; but a whole column counts no less than the
-// side of an aggregate of cubes, which it takes the place of.
+// What each dof counts toward the size of an aggregate. Thin layers are coupled too strongly to be
+// told apart, so that a dof in one counts less, in proportion to its height; but a whole column
+// counts no less than the side of a cube of kDofs dofs, the place of which it takes.
 template <int Dim>
 std::vector<double> weights_of(const std::vector<double>& heights,
                                const std::vector<std::uint32_t>& column_start) {
@@ -87,8 +88,8 @@ double sum_of(const std::vector<double>& values, std::uint32_t begin, std::uint3
     return std::accumulate(values.begin() + begin, values.begin() + end, 0.0);
 }
 
-// Into how many parts to cut each column, so that aggregates of such parts are kSlenderness times
-// as long as wide.
+// Into how many parts (not a whole number) to cut each column, so that aggregates of kDofs made of
+// such parts are kSlenderness times as long as wide.
 template <int Dim>
 std::vector<double> parts_of_columns(const std::vector<double>& heights,
                                      const std::vector<double>& weights,
@@ -106,7 +107,7 @@ std::vector<double> parts_of_columns(const std::vector<double>& heights,
     return parts;
 }
 
-// Which of `count` parts of a column, which are equally high, each of its dofs is in.
+// Cuts a column into `count` parts of equal height; returns the part of each of its dofs.
 std::vector<std::uint32_t> cut_column(const std::vector<double>& heights,
                                       std::uint32_t begin,
                                       std::uint32_t end,
@@ -131,10 +132,10 @@ Aggregates whole_columns(const std::vector<std::uint32_t>& column_start) {
     return {std::move(column_of), column_start.size() - 1};
 }
 
-// Clusters of whole columns, which are then cut across: rigid pieces lock least where they meet in
-// planes.
+// Clusters whole columns, then cuts each cluster across, all its columns into equally many parts:
+// rigid pieces lock least where they meet in planes.
 //
-// @param dofs  Without weights, which they get.
+// @param dofs  Their weights are set here.
 template <int Dim>
 Aggregates aggregate_columns(const std::vector<std::uint32_t>& column_start,
                              AggregateNodes<Dim>& dofs) {

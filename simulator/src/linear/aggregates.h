@@ -15,15 +15,14 @@
 
 namespace pent::simulator {
 
-/// A partition of children (dofs, or the aggregates of the level below) into connected, compact
-/// pieces of about equal size.
+/// A partition of children (dofs, or the aggregates of the next finer level) into connected,
+/// compact pieces of about equal size.
 ///
-/// Aggregates are numbered by color, which is all over a body, children from one side of it to the
-/// other. So aggregates are gone over, and their members kept, in the order of their first members:
-/// what neighbors need of the same memory is read once.
+/// Aggregates are numbered by color, so that consecutive ones are scattered over a body, children
+/// from one end of it to the other. For locality aggregates are therefore visited, and their
+/// members stored, in the order of first members: neighbors find what they share in the caches.
 ///
-/// Where dofs are shared those of other ranks may be numbered behind those of this one, children
-/// and aggregates alike.
+/// With ranks, ghosts are numbered behind what is of this rank, children and aggregates alike.
 class Aggregates {
 public:
     Aggregates() = default;
@@ -37,7 +36,7 @@ public:
     [[nodiscard]] std::span<const std::uint32_t> members(std::size_t aggregate) const {
         return {members_.data() + members_of_[aggregate].first, members_of_[aggregate].count};
     }
-    /// Where its members begin if those of all follow one another.
+    /// Where its members begin in an array of those of all aggregates, in the order of visits.
     [[nodiscard]] std::size_t first_of(std::size_t aggregate) const {
         return members_of_[aggregate].first;
     }
@@ -46,15 +45,15 @@ public:
     /// Which aggregate a child belongs to.
     [[nodiscard]] const std::vector<std::uint32_t>& of_child() const { return of_child_; }
 
-    /// Aggregates of other ranks: without members here.
+    /// How many ghosts there are: aggregates of other ranks, without members here.
     [[nodiscard]] std::uint32_t ghosts() const { return ghosts_; }
-    /// @param of_child  Which aggregate each child belongs to, with children of other ranks.
+    /// @param of_child  Which aggregate each child belongs to, ghosts among the children.
     void set_ghosts(std::vector<std::uint32_t> of_child, std::uint32_t ghosts) {
         of_child_ = std::move(of_child);
         ghosts_ = ghosts;
     }
 
-    /// Calls work(aggregates) for those of this rank, `most` of them in a task.
+    /// Calls work(aggregates), in parallel, for those of this rank, up to `most` of them at a time.
     template <typename Work>
     void for_each_part(const Workers& workers, std::size_t most, const Work& work) const {
         workers.for_each((order_.size() + most - 1) / most, [&](std::size_t part) {
@@ -63,7 +62,7 @@ public:
                                                 std::min(most, order_.size() - first)));
         });
     }
-    /// Calls work(aggregate) for each of this rank, at the same time.
+    /// Calls work(aggregate), in parallel, for each of this rank.
     template <typename Work>
     void for_each(const Workers& workers, const Work& work) const {
         constexpr std::size_t kTask = 64;
@@ -82,30 +81,30 @@ private:
 
     std::vector<std::uint32_t> of_child_;
     std::vector<std::uint32_t> order_;
-    std::vector<std::uint32_t> members_;  // of all, in that order
-    std::vector<Range> members_of_;
+    std::vector<std::uint32_t> members_;  // of all aggregates, in that order
+    std::vector<Range> members_of_;       // of each aggregate, in members_
     std::uint32_t ghosts_ = 0;
 };
 
-/// Most aggregates at which a hierarchy ends, unless they share no link.
+/// A hierarchy ends with at most so many aggregates, unless they share no links.
 inline constexpr int kCoarsestAggregates = 24;
 
 /// Aggregates of about 29 dofs each, aggregates of about 6 of these, and so on until few are left.
 ///
-/// Clusters of whole columns, single dofs where a mesh knows none, grow from a seed beside those
-/// that are there, along links of the matrix, always by what is nearest to their middle; then
-/// borders move until they are halfway between middles, for ragged ones lock where a body bends.
-/// Each is then cut across in parts about twice as long as wide, thin layers not at all: these are
-/// the finest aggregates. Arms of a body that lie side by side never share one, as pieces of space
-/// would make them. What has no link to others stays alone. Those that share no link follow one
-/// another, by color.
+/// Whole extrusion columns (single dofs, where a mesh knows no columns) are clustered along the
+/// links of the matrix by grow_aggregates(), with borders halfway between centroids, since rigid
+/// pieces with ragged borders lock where a body bends. Each cluster is then cut across into parts
+/// about twice as long as wide, thin layers not at all: these are the finest aggregates. Growing
+/// along links keeps parts of a body apart that lie side by side without being connected, which
+/// cutting space into boxes would not. What has no link to others stays alone. Aggregates that
+/// share no link follow one another, by color.
 ///
-/// Where dofs are shared each rank has aggregates of its own dofs, and all have as many levels.
+/// With ranks each has aggregates of its own dofs alone, and all have as many levels.
 ///
-/// @param pattern       Links of the dofs that have rows; columns of others are left out.
+/// @param pattern       Whose blocks are the links of the dofs; ghosts are left out.
 /// @param column_start  As DofMap::column_start().
 /// @param rest          Dim x dofs, rest positions, m.
-/// @param sharing       Null where nothing is shared.
+/// @param sharing       Null without ranks.
 /// @return              The finest first; at least one level, which is empty without dofs.
 template <int Dim>
 [[nodiscard]] std::vector<Aggregates> make_hierarchy(const BlockPattern& pattern,

@@ -15,7 +15,7 @@
 
 namespace pent::simulator {
 
-/// A block from the Dim^2 numbers that it is stored in.
+/// Reads a block from its Dim^2 stored numbers, see block_order.h.
 template <int Dim, typename Scalar>
 [[nodiscard]] Eigen::Matrix<Scalar, Dim, Dim> read_block(const Scalar* stored) {
     Eigen::Matrix<Scalar, Dim, Dim> block;
@@ -26,6 +26,7 @@ template <int Dim, typename Scalar>
     }
     return block;
 }
+/// Stores a block in that order.
 template <int Dim, typename Scalar>
 void write_block(const Eigen::Matrix<Scalar, Dim, Dim>& block, Scalar* stored) {
     for (int j = 0; j < Dim; ++j) {
@@ -35,14 +36,14 @@ void write_block(const Eigen::Matrix<Scalar, Dim, Dim>& block, Scalar* stored) {
     }
 }
 
-/// Vectors of the dofs, one block a column: Dim x rows.
+/// A vector over the dofs: Dim x dofs, a column for each dof.
 template <int Dim>
 using BlockVector = Positions<Dim>;
 
 /// Symmetric matrix of Dim x Dim blocks on a fixed pattern, upper triangle stored.
 ///
-/// There may be a second part on another pattern over the same dofs, which products include:
-/// what contact couples beyond elasticity. They include what compensate() has found, too.
+/// Products also include an optional second part on a pattern of its own over the same dofs (what
+/// contact couples and elasticity does not), and the corrections found by compensate().
 template <int Dim, typename Scalar>
 class BlockMatrix {
     using DoubleBlock = Eigen::Matrix<double, Dim, Dim>;
@@ -58,7 +59,7 @@ public:
     [[nodiscard]] Scalar* values() { return values_.data(); }
     [[nodiscard]] const Scalar* values() const { return values_.data(); }
     [[nodiscard]] std::int64_t rows() const { return pattern_->rows(); }
-    /// All rows as kernels take them, without the second part.
+    /// All rows in the form that kernels take, without the second part.
     [[nodiscard]] BlockRows<Scalar> all_rows() const {
         return {values_.data(), pattern_->row_start.data(), pattern_->columns.data(), 0, rows()};
     }
@@ -69,7 +70,7 @@ public:
     }
     [[nodiscard]] const Block diagonal(std::int64_t row) const { return block(diagonal_of(row)); }
     // NOLINTEND(readability-const-return-type)
-    /// A block of a row as products have it: with what compensate() has found.
+    /// A block of a row as products use it: corrected by what compensate() has found.
     [[nodiscard]] DoubleBlock compensated_block(std::int64_t row, std::int64_t index) const {
         DoubleBlock block = this->block(index).template cast<double>();
         if (!compensation_.empty() && index == diagonal_of(row)) {
@@ -87,7 +88,7 @@ public:
     void add_to_block(std::int64_t index, const Block& block) {
         set_block(index, this->block(index) + block);
     }
-    /// Adds so many times the identity to the diagonal block of a row.
+    /// Adds `number` times the identity to the diagonal block of a row.
     void add_to_diagonal(std::int64_t row, Scalar number) {
         Scalar* values = values_.data() + diagonal_of(row) * kEntries;
         for (int i = 0; i < Dim; ++i) {
@@ -123,12 +124,12 @@ public:
         });
     }
 
-    /// Makes up for rounding by diagonal compensation [axelsson1994]: a stiffness strains no
-    /// translation, so what the blocks of a row add up to is its mass times the identity. What they
-    /// lack of it is kept beside them in double, where rounding cannot take it again. Rows that are
-    /// cut stay as they are, since nobody knows the rest of them.
+    /// Makes up for rounding by diagonal compensation [axelsson1994]. A stiffness matrix maps
+    /// translations to zero, so the blocks of a row have to add up to its mass times the identity.
+    /// What rounding has taken of that is kept beside the diagonal block in double, where it is not
+    /// rounded again. Cut rows stay as they are: the matrix has not all blocks of their sums.
     ///
-    /// @param masses  One a row: what masses have added to its diagonal.
+    /// @param masses  One a row: the mass that has been added to its diagonal.
     void compensate(const Workers& workers, const Eigen::VectorXd& masses) {
         std::vector<DoubleBlock> sums(static_cast<std::size_t>(rows()), DoubleBlock::Zero());
         for_each_colored_chunk(
@@ -161,7 +162,7 @@ public:
         }
     }
 
-    /// Sum of work(begin, end) over chunks of rows, in their order.
+    /// Sum of work(begin, end) over chunks of rows, which are added in their order.
     template <typename Work>
     [[nodiscard]] auto sum_row_chunks(const Workers& workers, const Work& work) const {
         return workers.sum(pattern_->chunks, [&](int chunk) {
@@ -170,7 +171,7 @@ public:
         });
     }
 
-    /// Calls work(begin, end) for chunks of rows, at the same time.
+    /// Calls work(begin, end) for chunks of rows, in parallel.
     template <typename Work>
     void for_each_row_chunk(const Workers& workers, const Work& work) const {
         workers.for_each(pattern_->chunks, [&](int chunk) {
@@ -180,7 +181,7 @@ public:
     }
 
 private:
-    // Calls work(begin, end) for chunks of rows, at the same time for those that share no dof.
+    // Calls work(begin, end) for chunks of rows, in parallel for those that touch no common dof.
     template <typename Work>
     void for_each_colored_chunk(const Workers& workers, const Work& work) const {
         for (const std::vector<int>& chunks : pattern_->coloring.colors) {
@@ -214,8 +215,9 @@ private:
         });
     }
 
-    // Adds the blocks of rows, and those of the lower triangle that have rows here, as they are:
-    // what counts is the symmetric part, which a transpose shares.
+    // Adds up the blocks of each row: those of the stored upper triangle, and those of the lower
+    // one whose columns have rows here. The latter are not transposed: only the symmetric part of a
+    // sum is used, which a block and its transpose have in common.
     void add_row_sums(std::int64_t begin, std::int64_t end, std::vector<DoubleBlock>& sums) const {
         const auto& start = pattern_->row_start;
         for (std::int64_t row = begin; row < end; ++row) {

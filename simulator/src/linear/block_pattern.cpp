@@ -48,9 +48,8 @@ std::vector<std::uint32_t> ghost_columns(const BlockPattern& pattern,
 
 namespace {
 
-// @param for_each_pair  Calls its argument with each pair of vertices that share an element, both
-//                       ways
-//                       round, as often as it likes.
+// @param for_each_pair  Calls its argument with each pair of vertices that share an element, in
+//                       both orders; repetitions are allowed.
 template <typename ForEachPair>
 BlockPattern make_pattern_of(const DofMap& dofs, const ForEachPair& for_each_pair) {
     const std::uint32_t rows = dofs.row_count();

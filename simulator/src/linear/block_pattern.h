@@ -12,12 +12,12 @@ namespace pent::simulator {
 
 /// Which blocks of a symmetric block matrix are stored: the upper triangle, row by row.
 ///
-/// The diagonal block comes first in its row, the others by increasing column. There may be more
-/// columns than rows: those of other ranks.
+/// The diagonal block comes first in its row, the others by increasing column. Columns behind those
+/// that have rows are ghosts: dofs of other ranks.
 struct BlockPattern {
     std::vector<std::int64_t> row_start;  ///< rows + 1 entries.
     std::vector<std::uint32_t> columns;
-    std::vector<bool> is_cut;  ///< Rows of vertices that share an element with one without a dof.
+    std::vector<bool> is_cut;  ///< Of each row: whether it lacks blocks of vertices without a dof.
     int chunks = 0;            ///< Chunks of kChunkRows rows, for products in parallel.
     Coloring coloring;         ///< Of the chunks, by the rows and columns they touch.
 
@@ -34,25 +34,25 @@ struct BlockPattern {
 
 /// Cuts the rows of a pattern into chunks and colors these, for products in parallel.
 ///
-/// @param columns  Above all columns there are.
+/// @param columns  How many columns there are, ghosts among them.
 void color_rows(BlockPattern& pattern, std::int64_t columns);
 
-/// Columns that have no row, increasing: those of other ranks.
+/// The ghosts among the columns of a pattern, and of its coupling if any, increasing.
 [[nodiscard]] std::vector<std::uint32_t> ghost_columns(const BlockPattern& pattern,
                                                        const BlockPattern* coupling = nullptr);
 
-/// Vertices of elements that have different numbers of them: those of element e are
+/// Corners of elements that need not have equally many: those of element e are
 /// corners[start[e]] .. corners[start[e + 1] - 1].
 struct CornerLists {
     std::vector<std::int64_t> start = {0};
     std::vector<std::uint32_t> corners;
 };
 
-/// Blocks of all pairs of dofs that share a cell, one of them at least with a row.
+/// A block for each pair of dofs that share a cell, at least one of which has a row.
 template <int Dim>
 [[nodiscard]] BlockPattern make_pattern(const Simplices<Dim + 1>& cells, const DofMap& dofs);
 
-/// The same for elements of some lists.
+/// The same for elements given by their corners.
 [[nodiscard]] BlockPattern make_pattern(const std::vector<const CornerLists*>& lists,
                                         const DofMap& dofs);
 

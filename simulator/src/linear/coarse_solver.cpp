@@ -10,7 +10,7 @@ namespace pent::simulator {
 
 namespace {
 
-// Aggregates linked by blocks, directly or through others.
+// The connected components of the aggregates.
 std::vector<std::vector<std::uint32_t>> components_of(const AggregatePattern& pattern) {
     std::vector<std::vector<std::uint32_t>> components;
     std::vector<bool> is_seen(static_cast<std::size_t>(pattern.rows()), false);
@@ -35,13 +35,13 @@ std::vector<std::vector<std::uint32_t>> components_of(const AggregatePattern& pa
     return components;
 }
 
-// In one row of both triangles.
+// How many blocks a row has in both triangles.
 std::int64_t blocks_of(const AggregatePattern& pattern, std::uint32_t row) {
     return pattern.row_start[row + 1] - pattern.row_start[row] + pattern.above_start[row + 1]
            - pattern.above_start[row];
 }
 
-// The lower triangle, which is all that a factorization reads.
+// Some rows as a dense matrix: the lower triangle, which is all that a factorization reads.
 template <int Dim, typename Scalar>
 Eigen::MatrixXd dense(const AggregateMatrix<Dim, Scalar>& A,
                       const std::vector<std::uint32_t>& rows) {

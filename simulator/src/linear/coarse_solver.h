@@ -8,27 +8,26 @@
 
 namespace pent::simulator {
 
-/// Makes zero and dependent modes, those that an aggregate does not have (rotations of a single
-/// vertex) or that say the same twice (of vertices on a line), definite at the size of rounding:
-/// nothing they are given moves a vertex.
+/// Regularizes what is singular in a coarse matrix: modes that an aggregate does not have
+/// (rotations of a single vertex) and modes that depend on one another (of vertices on a line). The
+/// shift is of the size of rounding; whatever a solution has in such modes moves no vertex.
 ///
-/// @tparam Scalar  That the matrix was added up in.
+/// @tparam Scalar  In which the matrix was summed up.
 template <typename Scalar, typename Matrix>
 void make_definite(Matrix& A) {
-    // Well above the rounding of sums of blocks, well below what inertia must keep of the
-    // stiffness.
+    // Well above the rounding of sums of blocks, well below what inertia is beside the stiffness
+    // where it counts.
     constexpr double kRelativeShift = sizeof(Scalar) == sizeof(float) ? 2e-6 : 1e-10;
     for (Eigen::Index k = 0; k < A.rows(); ++k) {
         A(k, k) = A(k, k) > 0 ? (1 + kRelativeShift) * A(k, k) : 1;
     }
 }
 
-/// Solves on the coarsest level: each component of linked aggregates by a dense factorization of
-/// its own.
+/// Solver of the coarsest level: a dense Cholesky factorization for each connected component.
 ///
 /// A component of more than kMaxDense aggregates (a heap of that many bodies that touch), or one
-/// that rounding has left indefinite, is solved for by the inverses of its diagonal blocks, each
-/// divided by the number of blocks in its row: an approximation from below.
+/// that rounding has left indefinite, gets damped block Jacobi instead: inverses of the diagonal
+/// blocks, each divided by the number of blocks in its row, so that no correction is too large.
 template <int Dim, typename Scalar>
 class CoarseSolver {
 public:
@@ -45,13 +44,14 @@ private:
     struct Component {
         std::vector<std::uint32_t> rows;
         Eigen::LLT<Eigen::MatrixXd> factors;
-        std::vector<Eigen::Matrix<double, kModes<Dim>, kModes<Dim>>> inverses;  // if not factored
+        // Of damped block Jacobi; empty where `factors` are used.
+        std::vector<Eigen::Matrix<double, kModes<Dim>, kModes<Dim>>> inverses;
     };
 
     std::vector<Component> components_;
 };
 
-/// The inverse of a diagonal block, made definite.
+/// The inverse of a diagonal block, after make_definite().
 template <int Dim, typename Scalar>
 [[nodiscard]] Eigen::Matrix<double, kModes<Dim>, kModes<Dim>> inverse_of_diagonal(
     const AggregateMatrix<Dim, Scalar>& A, std::uint32_t row);

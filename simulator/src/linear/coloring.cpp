@@ -8,8 +8,8 @@ Coloring color_chunks(
     int chunks,
     std::int64_t vertices,
     const std::function<void(int, const std::function<void(std::uint32_t)>&)>& touched) {
-    constexpr int kColors = 64;
-    std::vector<std::uint64_t> used(static_cast<std::size_t>(vertices), 0);  // colors at a vertex
+    constexpr int kColors = 64;  // bits of a set of colors
+    std::vector<std::uint64_t> used(static_cast<std::size_t>(vertices), 0);  // at each vertex
     Coloring coloring;
     std::vector<int> alone;  // chunks that found no color left: each gets one of its own
     for (int chunk = 0; chunk < chunks; ++chunk) {

@@ -6,10 +6,10 @@
 
 namespace pent::simulator {
 
-/// Chunks of work by color: those of one color touch no vertex in common and may run at once.
+/// Chunks of work by color: those of one color touch no common vertex and may run concurrently.
 ///
-/// Colors run one after the other, chunks of a color in any order: what is added at a vertex is
-/// added in one order, whatever the number of threads.
+/// Colors run one after the other, so that contributions to a vertex are added in the same order
+/// for any number of threads.
 struct Coloring {
     std::vector<std::vector<int>> colors;  ///< Chunk numbers of each color, increasing.
 };

@@ -82,7 +82,7 @@ private:
         return {chunk * kChunkColumns, std::min((chunk + 1) * kChunkColumns, columns())};
     }
 
-    // How far apart in one column dofs are coupled.
+    // How many layers apart dofs of one column are coupled.
     static std::uint32_t band_of(const BlockPattern& pattern,
                                  const std::vector<std::uint32_t>& column_start) {
         std::uint32_t band = 0;
@@ -119,8 +119,8 @@ private:
         kernels_->factor_columns_double(matrix.all_rows(), factors, has_failed);
     }
 
-    // Plain block Jacobi for one column: taken out of the matrix it is not positive definite, which
-    // cannot be unless layers further apart than the band are coupled.
+    // Plain block Jacobi for one column, whose banded part is not positive definite: in a positive
+    // definite matrix that takes couplings of layers further apart than the band.
     template <typename Scalar>
     void factor_alone(const BlockMatrix<Dim, Scalar>& matrix,
                       std::uint32_t begin,
@@ -145,7 +145,7 @@ private:
     const std::vector<std::uint32_t>* column_start_;
     std::size_t band_;
     Floats inverses_;   // D_k^-1
-    Floats couplings_;  // E_k,j, `band_` a dof
+    Floats couplings_;  // E_k,j, band_ of them for each dof
 };
 
 }  // namespace

@@ -14,7 +14,7 @@ namespace {
 
 constexpr Eigen::Index kChunkColumns = 512;
 
-// Iterations before anything else is thought of.
+// Iterations before an alternative is considered.
 constexpr int kPatience = 8;
 constexpr double kNever = std::numeric_limits<double>::infinity();
 
@@ -31,7 +31,7 @@ double sum_chunks(const Workers& workers, Eigen::Index columns, const Work& work
     });
 }
 
-// Of the first `rows` columns.
+// a . b over the first `rows` columns; those behind are ghosts.
 template <int Dim>
 double dot(const Workers& workers,
            Eigen::Index rows,
@@ -82,7 +82,7 @@ double advance(const Workers& workers,
     });
 }
 
-// x *= factor, r = b - A x, where it was that of x before; returns |r|^2.
+// x *= factor, and r = b - A x for the new x, given that for the old one; returns |r|^2.
 template <int Dim>
 double scale(const Workers& workers,
              Eigen::Index rows,
@@ -98,7 +98,7 @@ double scale(const Workers& workers,
     });
 }
 
-// x += alpha p, then p = z + beta p, in one pass.
+// x += alpha p, then p = z + beta p, in one pass over memory.
 template <int Dim>
 void follow_and_turn(const Workers& workers,
                      Eigen::Index rows,
@@ -116,10 +116,11 @@ void follow_and_turn(const Workers& workers,
     });
 }
 
-// Whether more iterations are left than another way takes, at the rate of the last ones: half as
-// many as that. Where few have been made they tell less of those to come, and more have to be left.
+// Whether at the rate of the last iterations more are left than the alternative costs. The rate is
+// that of half as many as it costs; while few have been made, proportionally more have to be left.
 //
-// @param left  What was left at the start, and behind each iteration.
+// @param left   The relative residual at the start, and after each iteration.
+// @param worth  The cost of the alternative, in iterations.
 bool is_slow(const std::vector<double>& left, double enough, double worth) {
     const std::size_t spent = left.size() - 1;
     const auto last = static_cast<std::size_t>(
@@ -186,7 +187,7 @@ double ConjugateGradients<Dim>::scale_guess(Eigen::Index rows,
     const double curvature = work - halo_.sum(dot(*workers_, rows, r_, x));
     const double factor = curvature > 0 ? work / curvature : 0;
     x.rightCols(x.cols() - rows) *= factor;  // ghosts
-    return part_left(scale(*workers_, rows, factor, b, r_, x));
+    return relative_residual(scale(*workers_, rows, factor, b, r_, x));
 }
 
 template <int Dim>
@@ -196,11 +197,11 @@ double ConjugateGradients<Dim>::find_residual(const BlockMatrix<Dim, Scalar>& A,
                                               BlockVector<Dim>& x) {
     halo_.update(x);
     A.multiply(*workers_, *kernels_, x, r_);
-    return part_left(residual(*workers_, A.rows(), b, r_));
+    return relative_residual(residual(*workers_, A.rows(), b, r_));
 }
 
 template <int Dim>
-double ConjugateGradients<Dim>::part_left(double r_square) const {
+double ConjugateGradients<Dim>::relative_residual(double r_square) const {
     double most = std::sqrt(halo_.sum(r_square)) / b_norms_[0];
     for (std::size_t i = 0; i < weights_.size(); ++i) {
         const double left = std::sqrt(halo_.sum(weighed_square(*workers_, weights_[i], r_)));
@@ -223,7 +224,7 @@ void ConjugateGradients<Dim>::iterate(const BlockMatrix<Dim, Scalar>& A,
     double left = kNever;
     std::vector<double> all_left = {report.residual};
     double rz_before = 1;
-    double step = 0;  // along p, which x has yet to follow
+    double step = 0;  // along p; x takes it in the next pass of follow_and_turn()
     double worth = kNever;
     for (int spent = 0; left > enough && report.iterations < options.max_iterations; ++spent) {
         if (spent == kPatience && alternative) {
@@ -243,12 +244,12 @@ void ConjugateGradients<Dim>::iterate(const BlockMatrix<Dim, Scalar>& A,
             return;
         }
         step = rz / curvature;
-        left = part_left(advance(*workers_, rows, step, q_, r_));
+        left = relative_residual(advance(*workers_, rows, step, q_, r_));
         all_left.push_back(left);
         rz_before = rz;
         ++report.iterations;
     }
-    follow_and_turn(*workers_, rows, step, 0, z_, p_, solution.x);  // p is of no more use
+    follow_and_turn(*workers_, rows, step, 0, z_, p_, solution.x);  // the last step; p is done
 }
 
 #define PENT_INSTANTIATE(Dim, Scalar)                                                         \

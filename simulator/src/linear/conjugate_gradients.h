@@ -13,8 +13,8 @@ namespace pent::simulator {
 
 /// Preconditioned conjugate gradients for A x = b, A symmetric positive definite.
 ///
-/// The residual that is carried along drifts from the true one; the true one decides at the end,
-/// and where it is too large the iteration starts again from there.
+/// The residual that is updated from iteration to iteration drifts away from b - A x. The latter
+/// decides at the end; where it is too large the iteration restarts from there.
 template <int Dim>
 class ConjugateGradients {
 public:
@@ -22,13 +22,14 @@ public:
     ConjugateGradients(const Workers& workers, const BlockKernels& kernels)
         : workers_(&workers), kernels_(&kernels) {}
 
-    /// As many iterations as another way to solve the same equation takes time, asked once there
-    /// have been a few.
+    /// What another way to solve the same equation costs, in iterations. Asked once a few
+    /// iterations have been made.
     using Alternative = std::function<double()>;
 
-    /// @param alternative  Taken where that many more would not be enough at the rate of the last
-    ///                     iterations, half that many; before so many have been made, where so many
-    ///                     times more would not be as they are fewer.
+    /// @param alternative  Where more iterations seem to be left than it costs, at the rate of the
+    ///                     last ones (half as many as it costs), the solve ends with `is_slow`.
+    ///                     While fewer have been made than it costs, which tells less of those to
+    ///                     come, proportionally more have to be left.
     template <typename Scalar>
     [[nodiscard]] LinearSolution<Dim> solve(const BlockMatrix<Dim, Scalar>& A,
                                             const Preconditioner<Dim>& preconditioner,
@@ -39,19 +40,21 @@ public:
                                             const Alternative& alternative = nullptr);
 
 private:
-    // r_ = b - A x; returns what is left of b.
+    // r_ = b - A x, after an exchange of ghosts of x; returns relative_residual().
     template <typename Scalar>
     double find_residual(const BlockMatrix<Dim, Scalar>& A,
                          const BlockVector<Dim>& b,
                          BlockVector<Dim>& x);
-    // From r_ = b - A x on: takes the multiple of the guess x that is nearest to the solution in
-    // the norm of A, where none can be farther than 0 is, and its residual; returns what is left of
-    // b. What inertia alone would do is far from what stiff bodies do.
+    // Given r_ = b - A x, scales the guess x to be nearest to the solution in the norm of A, never
+    // farther than 0 is, and r_ with it; returns relative_residual(). A guess by inertia alone is
+    // far from what stiff bodies do.
     double scale_guess(Eigen::Index rows, const BlockVector<Dim>& b, BlockVector<Dim>& x);
-    // What r_ is of b, by the norm in which that is more.
-    [[nodiscard]] double part_left(double r_square) const;
-    // From x, whose residual is r_, until the one that is carried along is small enough, iterations
-    // are spent or take too long, or a direction shows that A is not positive definite.
+    // |r_| / |b|, the largest over the norms of LinearSolveOptions.
+    //
+    // @param r_square  |r_|^2 of the rows of this rank.
+    [[nodiscard]] double relative_residual(double r_square) const;
+    // Iterates from x, whose residual is r_, until the updated residual is `enough`, iterations run
+    // out or take too long, or a direction shows that A is not positive definite.
     template <typename Scalar>
     void iterate(const BlockMatrix<Dim, Scalar>& A,
                  const Preconditioner<Dim>& preconditioner,
@@ -63,13 +66,13 @@ private:
     const Workers* workers_;
     const BlockKernels* kernels_;
     Halo halo_;
-    // Columns of other ranks count in x and p alone, and there as ghosts.
+    // Ghosts are used in x and p only.
     BlockVector<Dim> r_;  // kept between solves
     BlockVector<Dim> z_;
     BlockVector<Dim> p_;
     BlockVector<Dim> q_;
-    std::span<const Eigen::VectorXd> weights_;  // of the solve that goes on, see LinearSolveOptions
-    std::vector<double> b_norms_;               // |b|, and those by weights
+    std::span<const Eigen::VectorXd> weights_;  // of the current solve, see LinearSolveOptions
+    std::vector<double> b_norms_;               // |b|, then |b| in the norm of each of these
 };
 
 }  // namespace pent::simulator

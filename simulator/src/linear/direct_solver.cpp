@@ -12,7 +12,7 @@ namespace pent::simulator {
 
 namespace {
 
-// residual -= A x, in double, of a matrix of which one triangle is stored.
+// residual -= A x, in double, both triangles of A.
 template <int Dim, typename Scalar>
 void subtract_product(const BlockMatrix<Dim, Scalar>& A,
                       const BlockVector<Dim>& x,
@@ -56,7 +56,7 @@ private:
         LinearSolution<Dim> solution{std::move(guess), {}};
         LinearSolveReport& report = solution.report;
         std::optional<Elimination> coupled;
-        if (A.coupling() != nullptr) {  // what touches is another in each solve
+        if (A.coupling() != nullptr) {  // contacts change from solve to solve
             coupled =
                 eliminate(join(link_dofs(A.pattern()), link_dofs(A.coupling()->pattern())), rest_);
         } else if (!plain_) {
@@ -83,7 +83,7 @@ private:
 
     const BlockKernels* kernels_;
     BlockVector<Dim> rest_;
-    std::optional<Elimination> plain_;  // without what touches, from the first such solve on
+    std::optional<Elimination> plain_;  // without a coupling; made by the first such solve
 };
 
 }  // namespace

@@ -96,7 +96,7 @@ std::vector<std::uint32_t> reverse_cuthill_mckee(const Graph& graph) {
         if (is_seen[node]) {
             continue;
         }
-        // The node found last from anywhere is far out: a good root.
+        // A good root is far out, and the node that a breadth-first search reaches last is.
         const std::size_t begin = order.size();
         std::uint32_t root = node;
         for (int pass = 0; pass < 2; ++pass) {

@@ -15,15 +15,15 @@ namespace pent::simulator {
 /// from layer to layer; columns (single vertices, where a mesh knows no columns) in reverse
 /// Cuthill-McKee order, which keeps neighbors close in memory [cuthill1969].
 ///
-/// Where vertices are shared by ranks, those of this rank come first: they alone have rows in its
-/// matrix. Those of others that these rows may couple come behind them, as columns alone.
+/// With ranks the dofs of this rank come first; only they have rows in its matrix. Ghosts follow,
+/// as columns alone: dofs of other ranks to which those rows may be coupled.
 class DofMap {
 public:
     DofMap() = default;
 
     /// @param vertex_of_dof  Distinct vertices, in the order of their dofs.
-    /// @param column_start   Dofs of column c: [start[c], start[c + 1]); the last of them is the
-    ///                       last that has a row.
+    /// @param column_start   Dofs of extrusion column c: [start[c], start[c + 1]). Columns cover
+    ///                       the dofs that have rows, and no ghosts.
     /// @param is_own         One entry a vertex, with a dof or not: whether it is of this rank;
     ///                       empty if all are.
     DofMap(std::size_t vertices,
@@ -35,7 +35,7 @@ public:
         return static_cast<std::uint32_t>(vertex_of_dof_.size());
     }
 
-    /// How many have rows here: all but those of other ranks.
+    /// How many have rows here: all but the ghosts.
     [[nodiscard]] std::uint32_t row_count() const { return column_start_.back(); }
 
     [[nodiscard]] bool has_dof(std::uint32_t vertex) const { return index_[vertex] < count(); }

@@ -13,12 +13,12 @@ namespace {
 
 using Places = std::vector<std::uint32_t>;
 
-// A supernode takes up its last child where at most this part of what they store together are
-// zeros, or this many columns are.
+// Relaxed supernodes: one is merged with its last child where at most this part of what they store
+// together are zeros, or where together they have at most so many columns.
 constexpr double kMaxZeros = 0.1;
 constexpr std::uint32_t kNarrow = 4;
 
-// So few dofs are not cut any more.
+// So few dofs are not dissected any further.
 constexpr std::size_t kLeaf = 24;
 
 constexpr std::uint32_t kNone = 0xffffffffU;
@@ -48,8 +48,8 @@ public:
     }
 
 private:
-    // Puts the dofs on one side of a cut first, then those on the other, then those of the other
-    // that are linked to the first; and divides both sides in turn.
+    // Puts the dofs on one side of a cut first, then those on the other side, last the separator:
+    // those of the other side that are linked to the first. Divides both sides in the same way.
     void divide(std::span<std::uint32_t> dofs) {
         const Eigen::Index axis = longest_axis(dofs);
         const auto at = [&](std::uint32_t dof) { return places_(axis, dof); };
@@ -59,7 +59,7 @@ private:
         auto cut =
             std::lower_bound(dofs.begin(), dofs.end(), at(dofs[dofs.size() / 2]),
                              [&](std::uint32_t dof, double value) { return at(dof) < value; });
-        if (cut == dofs.begin()) {  // more than half of them lie side by side
+        if (cut == dofs.begin()) {  // more than half of them have the least coordinate
             cut = std::find_if(cut, dofs.end(),
                                [&](std::uint32_t dof) { return at(dof) > at(dofs.front()); });
         }
@@ -94,12 +94,13 @@ private:
 
     const Links& links_;
     const Eigen::Ref<const Eigen::MatrixXd>& places_;
-    std::vector<std::uint32_t> side_;  // the last cut that had a dof on its first side
+    std::vector<std::uint32_t> side_;  // of each dof, the last cut with it on the first side
     std::uint32_t stamp_ = 0;
     Places order_;
 };
 
-// Who takes the update of each column: the first of the rows below it [liu1990, 4].
+// The elimination tree: the parent of a column is the first row below it in the factor
+// [liu1990, 4].
 Places elimination_tree(const Links& links, const Places& order, const Places& place) {
     Places parent(order.size(), kNone);
     Places ancestor(order.size(), kNone);
@@ -119,7 +120,7 @@ Places elimination_tree(const Links& links, const Places& order, const Places& p
     return parent;
 }
 
-// Places in an order in which every subtree is a range that ends with its root.
+// A postorder of the tree, in which every subtree is a range that ends with its root.
 Places postorder(const Places& parent) {
     Places first_child(parent.size(), kNone);
     Places sibling(parent.size(), kNone);
@@ -151,7 +152,7 @@ Places postorder(const Places& parent) {
     return order;
 }
 
-// Rows below a column: those of the matrix, and those that its children's updates bring.
+// Rows below a column of the factor: those of the matrix, and fill from its children's updates.
 Places rows_below(const Links& links,
                   const Elimination& elimination,
                   std::uint32_t column,
@@ -184,9 +185,10 @@ public:
     SupernodeMaker(const Links& links, Elimination& elimination)
         : links_(links), elimination_(elimination) {}
 
-    // Columns in order, each begun as a supernode of its own that takes up what ends before it.
+    // Every column begins as a supernode of its own, which then absorbs, one after another, the
+    // child that ends right before it.
     void run(const Places& parent) {
-        std::vector<std::vector<std::size_t>> children(parent.size());  // nodes, by column
+        std::vector<std::vector<std::size_t>> children(parent.size());  // of each column: nodes
         for (std::uint32_t column = 0; column < parent.size(); ++column) {
             std::vector<const Places*> below;
             for (const std::size_t child : children[column]) {
@@ -226,7 +228,7 @@ public:
     }
 
 private:
-    // Zeros that are stored where a node has taken up its child.
+    // How many zeros are stored once a node has absorbed the last child.
     [[nodiscard]] double zeros_of(const Supernode& node,
                                   double zeros,
                                   const Supernode& child) const {
@@ -268,8 +270,8 @@ void count_costs(Elimination& elimination) {
     }
 }
 
-// Of the factor in the order of the dofs, as if no block was zero between the first of each row and
-// the diagonal.
+// Products that a profile factorization in the order of the dofs takes: a cheap upper bound, as if
+// no block was zero between the first one of each row and the diagonal.
 double products_in_profile(const Links& links) {
     double products = 0;
     for (std::uint32_t row = 0; row < links.size(); ++row) {

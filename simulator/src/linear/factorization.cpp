@@ -12,14 +12,14 @@ namespace {
 
 using Matrix = Eigen::MatrixXd;
 
-// A stored block in its place in the lower triangle of the matrix as it is eliminated.
+// A stored block at its place in the lower triangle of the permuted matrix.
 struct Entry {
     std::uint32_t row;
     std::int64_t block;
     bool is_transposed;
 };
 
-// Those of one part of the matrix, column by column.
+// The blocks of one part of the matrix, sorted by permuted column.
 template <int Dim, typename Scalar>
 class Entries {
 public:
@@ -45,7 +45,7 @@ public:
         visit([&](std::uint32_t column, const Entry& entry) { entries_[next[column]++] = entry; });
     }
 
-    // panel += the columns of a supernode; local has the places of rows in it.
+    // panel += the columns of a supernode; local has the place of each row in the front.
     void add_to(Matrix& panel,
                 const Supernode& node,
                 const std::vector<std::uint32_t>& local) const {
@@ -71,7 +71,7 @@ private:
     std::vector<Entry> entries_;
 };
 
-// Adds the update of a child to the panel of its parent and to the parent's own update.
+// Extend-add: adds the update of a child to the panel and to the update of its parent.
 template <int Dim>
 void add_update(const Matrix& update,
                 const std::vector<std::uint32_t>& rows,

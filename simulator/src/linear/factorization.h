@@ -11,9 +11,9 @@
 
 namespace pent::simulator {
 
-/// L of A = L L^T, for a symmetric positive definite matrix, by the multifrontal method [liu1992]:
-/// each supernode gathers its part of A and the updates of its children in a dense matrix, of which
-/// it eliminates its columns.
+/// Cholesky factorization A = L L^T of a symmetric positive definite matrix by the multifrontal
+/// method [liu1992]: each supernode assembles its part of A and the updates of its children in a
+/// dense front, eliminates its columns there, and hands the update of the rows below to its parent.
 template <int Dim>
 class Factorization {
 public:
@@ -30,12 +30,11 @@ public:
 private:
     explicit Factorization(const Elimination& elimination) : elimination_(&elimination) {}
 
-    // Below the diagonal block of a supernode.
+    // The factor below the diagonal block of a supernode.
     [[nodiscard]] auto rows_below(std::size_t s) const;
 
     const Elimination* elimination_;
-    std::vector<Eigen::MatrixXd>
-        panels_;  // of each supernode: its columns, its rows, those below, and room
+    std::vector<Eigen::MatrixXd> panels_;  // of each supernode, see Front
 };
 
 }  // namespace pent::simulator

@@ -12,12 +12,13 @@ namespace pent::simulator {
 
 namespace {
 
-// What of the coupling to other ranks does without damping. Below 1, so that errors become smaller
-// indeed.
+// How strong the coupling to other ranks may be without damping. Below 1, the limit at which errors
+// stop becoming smaller.
 constexpr double kUndamped = 0.5;
 
-// At least the largest singular value of D_i^-1/2 A_ij D_j^-1/2, and no more than 10^(1/8) = 1.33
-// times that: the eighth root of the sum of their eighth powers, which is a trace.
+// A bound of |D_i^-1/2 A_ij D_j^-1/2| without roots of matrices: the eighth root of the sum of the
+// eighth powers of its singular values, which is a trace. At least the largest of the 10 (6 in 3D),
+// and at most 10^(1/8) = 1.33 times that.
 template <typename Block>
 double coupling_norm(const Block& inverse_i, const Block& A_ij, const Block& inverse_j) {
     const Block squared = inverse_i * A_ij * inverse_j * A_ij.transpose();

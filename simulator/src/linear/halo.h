@@ -6,10 +6,10 @@
 
 namespace pent::simulator {
 
-/// What other ranks have to do with vectors over the dofs; nothing, where there are none.
+/// Exchange of ghosts and reductions over ranks for vectors over the dofs; without ranks, nothing.
 struct Halo {
     const Sharing* sharing = nullptr;
-    GhostExchange* ghosts = nullptr;  ///< Of the columns of others that the matrix has.
+    GhostExchange* ghosts = nullptr;  ///< Of the ghost columns of the matrix.
 
     [[nodiscard]] double sum(double value) const {
         return sharing != nullptr ? sharing->sum(value) : value;

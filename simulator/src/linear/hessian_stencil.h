@@ -4,11 +4,11 @@
 
 namespace pent::simulator {
 
-/// Stands in the vertices of a stencil for a point that does not move, which has no row.
+/// In the vertices of a stencil: a point that does not move and has no row.
 inline constexpr std::uint32_t kNoVertex = 0xffffffff;
 
-/// The second derivatives of one energy by a few vertices: a view of numbers that must last until
-/// the system is assembled. Block (i, j) is
+/// The Hessian of an energy of a few vertices, as a view of numbers that must outlive
+/// NewtonSystem::finish(). Block (i, j) is
 ///
 ///     scale weights[i] weights[j] K
 ///
@@ -26,8 +26,8 @@ struct HessianStencil {
     std::int32_t rank = 0;    ///< At most Dim^2.
     std::int32_t stride = 0;  ///< Numbers from one column of a matrix to the next.
     double scale = 1;
-    bool is_checked = false;  ///< Whether masses must not be lost next to it, see
-                              ///< NewtonSystem::weigh_masses().
+    bool is_checked = false;  ///< Whether NewtonSystem::weigh_masses() compares masses with it; it
+                              ///< has weights then, and no kNoVertex.
 };
 
 }  // namespace pent::simulator

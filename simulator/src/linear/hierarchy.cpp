@@ -8,9 +8,10 @@ namespace pent::simulator {
 
 namespace {
 
-// Numbers the aggregates that children of other ranks are in, behind those of this one.
+// Finds the ghost aggregates of a level, those with ghosts among their children, and numbers them
+// behind the aggregates of this rank: by owner, then by their number there.
 //
-// @param children  Those of others, and their exchange.
+// @param children  Ghosts among the children, and their exchange.
 void add_ghosts(const Ghosts& children, GhostExchange& exchange, HierarchyLevel& level) {
     std::vector<std::uint32_t> of_child = level.aggregates.of_child();
     const std::size_t columns =

@@ -9,23 +9,25 @@
 
 namespace pent::simulator {
 
-/// Aggregates of a level, which blocks their matrix has, and what of it is of other ranks.
+/// The aggregates of one level of the multigrid hierarchy, the pattern of the matrix over them, and
+/// their ghosts.
 struct HierarchyLevel {
-    Aggregates aggregates;  ///< Of this rank; of_child() tells of those of others, too.
+    Aggregates aggregates;  ///< Of this rank; of_child() and ghosts() know of ghosts, too.
     AggregatePattern pattern;
-    Ghosts ghosts;  ///< Those of others; none where nothing is shared.
-    /// Of vectors over the aggregates; null where nothing is shared, and for the coarsest level.
+    Ghosts ghosts;  ///< Among the aggregates; none without ranks.
+    /// Of vectors over the aggregates; null without ranks, and on the coarsest level.
     std::unique_ptr<GhostExchange> exchange;
 };
 
-/// Aggregates of the dofs over all levels. None crosses from one rank to another.
+/// All levels. No aggregate has children of two ranks, so that restriction and prolongation need no
+/// messages.
 class Hierarchy {
 public:
     /// @param aggregates  Of this rank, the finest first; at least one level, as many on all ranks.
-    /// @param pattern     Of the matrix.
+    /// @param pattern     Of the matrix over the dofs.
     /// @param coupling    Of its second part, or null.
-    /// @param of_dofs     Must outlive this.
-    /// @param ghosts      Of the matrix, increasing; none where nothing is shared.
+    /// @param of_dofs     What it points to must outlive this.
+    /// @param ghosts      Among the dofs, increasing; none without ranks.
     Hierarchy(const std::vector<Aggregates>& aggregates,
               const BlockPattern& pattern,
               const BlockPattern* coupling = nullptr,

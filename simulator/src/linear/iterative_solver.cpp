@@ -16,17 +16,16 @@ namespace pent::simulator {
 
 namespace {
 
-// What iterations take, and factors: measured, in ns, of small bodies; only ratios count. An
-// iteration is so much, and so much for each number of the matrix; factors are so much, and so much
-// for each supernode, and for each product of two numbers.
-constexpr double kIteration = 15'000;
-constexpr double kNumber = 0.25;
-constexpr double kFactors = 100'000;
-constexpr double kSupernode = 1200;
-constexpr double kProduct = 0.25;
+// Cost model of iterations and of factorizations, in ns measured on small bodies; only ratios
+// count.
+constexpr double kIteration = 15'000;  // of an iteration, and
+constexpr double kNumber = 0.25;       // for each number of the matrix
+constexpr double kFactors = 100'000;   // of a factorization,
+constexpr double kSupernode = 1200;    // for each supernode, and
+constexpr double kProduct = 0.25;      // for each product of two numbers
 
-// Factors of fewer rows gain less than 0.1 ms, and nobody looks at those of more, since they take
-// one thread.
+// With fewer rows a factorization gains less than 0.1 ms; with more it is not considered, since it
+// uses one thread only.
 constexpr std::int64_t kFewestRows = 64;
 constexpr std::int64_t kMostRows = 4096;
 
@@ -56,7 +55,8 @@ public:
             [&](const auto& matrix) {
                 const BlockPattern* coupling =
                     matrix.coupling() != nullptr ? &matrix.coupling()->pattern() : nullptr;
-                // Blocks of elements are always the same; what stencils couple changes.
+                // The pattern of elements never changes, that of couplings from solve to solve. All
+                // ranks have to take the same branch, even those without a coupling of their own.
                 const bool has_coupling = any(coupling != nullptr);
                 if (!has_coupling && !plain_) {
                     plain_ = surroundings_of(matrix.pattern(), nullptr);
@@ -90,13 +90,13 @@ public:
     }
 
 private:
-    // What hangs on which blocks a matrix has.
+    // What depends on the pattern of a matrix, but not on its values.
     struct Surroundings {
-        std::unique_ptr<GhostExchange> exchange;  // null where dofs are not shared
-        std::unique_ptr<Hierarchy> hierarchy;     // for rigid modes
+        std::unique_ptr<GhostExchange> exchange;  // null without ranks
+        std::unique_ptr<Hierarchy> hierarchy;     // null but for rigid modes
     };
 
-    // In iterations, where a matrix has no coupling.
+    // What a factorization costs, in iterations, of a matrix without a coupling.
     [[nodiscard]] double cost_of_factors(const BlockPattern& pattern) {
         if (pattern.rows() < kFewestRows || pattern.rows() > kMostRows) {
             return std::numeric_limits<double>::infinity();
@@ -111,18 +111,18 @@ private:
                / (kIteration + kNumber * numbers);
     }
 
-    // By factors, which need one iteration; levels go on with a matrix of which rounding has made a
-    // pivot negative.
+    // Factors the matrix and makes the last iteration with that; where rounding has made a pivot
+    // negative, goes on with the preconditioner it had.
     template <typename Scalar>
     [[nodiscard]] LinearSolution<Dim> finish(const BlockMatrix<Dim, Scalar>& A,
-                                             const Preconditioner<Dim>& levels,
+                                             const Preconditioner<Dim>& fallback,
                                              const BlockVector<Dim>& b,
                                              LinearSolveOptions options,
                                              LinearSolution<Dim> so_far) {
         const auto exact = exact_inverse(*kernels_, A, *elimination_);
         options.max_iterations -= so_far.report.iterations;
         LinearSolution<Dim> solution =
-            iteration_.solve(A, exact ? *exact : levels, b, options, std::move(so_far.x));
+            iteration_.solve(A, exact ? *exact : fallback, b, options, std::move(so_far.x));
         solution.report.iterations += so_far.report.iterations;
         return solution;
     }
@@ -165,10 +165,10 @@ private:
     const Workers* workers_;
     const BlockKernels* kernels_;
     PreconditionerKind kind_;
-    DofGeometry<Dim> dofs_;                   // with columns that are solved together
-    std::vector<Aggregates> aggregates_;      // from the first solve on
-    std::optional<Surroundings> plain_;       // from the first without a coupling on
-    std::optional<Elimination> elimination_;  // of plain blocks, from when they are looked at on
+    DofGeometry<Dim> dofs_;                   // for block Jacobi with columns of single dofs
+    std::vector<Aggregates> aggregates_;      // made by the first solve, of the elements' pattern
+    std::optional<Surroundings> plain_;       // made by the first solve without a coupling
+    std::optional<Elimination> elimination_;  // made when a factorization is first considered
     ConjugateGradients<Dim> iteration_;
 };
 

@@ -9,7 +9,7 @@ namespace pent::simulator {
 namespace {
 
 constexpr std::size_t kLine = 64;
-constexpr std::size_t kPage = std::size_t{2} << 20;  // a large one
+constexpr std::size_t kPage = std::size_t{2} << 20;  // a huge one
 constexpr std::size_t kMuch = 4 * kPage;
 
 constexpr std::align_val_t alignment_of(std::size_t bytes) {
@@ -22,7 +22,7 @@ void* allocate_lines(std::size_t bytes) {
     void* memory = ::operator new(bytes, alignment_of(bytes));
 #if defined(__linux__)
     if (bytes >= kMuch) {
-        ::madvise(memory, bytes, MADV_HUGEPAGE);  // if it fails pages are small
+        ::madvise(memory, bytes, MADV_HUGEPAGE);  // a hint: where it fails pages are small
     }
 #endif
     return memory;

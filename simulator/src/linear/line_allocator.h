@@ -6,17 +6,18 @@
 
 namespace pent::simulator {
 
-/// Memory that starts at a cache line. Much of it is in large pages, where the system has them to
-/// give: it is gone through from end to end over and over, and every step asks for some of it anew.
+/// Memory aligned to a cache line. Large arrays are aligned to huge pages, and the system is asked
+/// for these: they are traversed over and over, and some are allocated anew in every step, which
+/// with small pages costs many TLB misses and page faults.
 [[nodiscard]] void* allocate_lines(std::size_t bytes);
 /// @param bytes  As it was asked for.
 void free_lines(void* memory, std::size_t bytes);
 
-/// Starts arrays at cache lines, so that no 4 x 4 block of floats lies across two, and leaves
-/// numbers that nothing is said of as they are: who fills them does so with all threads.
+/// Allocator for arrays that kernels stream through. Aligned to cache lines, so that a 4 x 4 block
+/// of floats is in one; and resize() leaves numbers uninitialized, to be filled by all threads.
 template <typename Value>
 struct LineAllocator {
-    using value_type = Value;  // NOLINT(readability-identifier-naming): as allocators must
+    using value_type = Value;  // NOLINT(readability-identifier-naming): required name
 
     LineAllocator() = default;
     template <typename Other>

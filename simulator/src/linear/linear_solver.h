@@ -11,10 +11,10 @@ namespace pent::simulator {
 
 /// Solves the symmetric positive definite equations of Newton's method.
 ///
-/// The matrix is in float or in double, as its NewtonSystem has it, and vectors are in double. That
-/// floats give way to doubles is decided while a matrix is put together, not here: what floats lose
-/// is lost by then, and only the terms can add it up anew. NewtonSystem::has_lost_inertia() says
-/// so, and the sum that a step minimizes assembles the same equation in double.
+/// The matrix is in float or in double, as its NewtonSystem has it; vectors are in double. Whether
+/// float is enough is decided during assembly, not here: what rounding has lost by now only a new
+/// assembly can bring back. So where NewtonSystem::has_lost_inertia(), IncrementalPotential
+/// assembles the same equation once more in double.
 template <int Dim>
 class LinearSolver {
 public:
@@ -26,18 +26,18 @@ public:
     LinearSolver& operator=(LinearSolver&&) = delete;
 
     /// @param positions  Dim x dofs, m: where the vertices are now.
-    /// @param guess      Dim x dofs; of use to iterations alone.
+    /// @param guess      Dim x dofs: initial guess; direct solvers do not use it.
     [[nodiscard]] virtual LinearSolution<Dim> solve(const NewtonSystem<Dim>& system,
                                                     const BlockVector<Dim>& positions,
                                                     const LinearSolveOptions& options,
                                                     BlockVector<Dim> guess) = 0;
 };
 
-/// Where dofs are at home; empty where nothing is shared.
+/// Which rank owns each dof; empty without ranks.
 struct DofOwners {
     const Sharing* sharing = nullptr;
-    std::vector<std::uint32_t> ranks;   ///< Of each dof.
-    std::vector<std::uint32_t> places;  ///< Its number there.
+    std::vector<std::uint32_t> ranks;   ///< The owner of each dof.
+    std::vector<std::uint32_t> places;  ///< The number of the dof on that rank.
 };
 
 /// What an iterative solver knows of the dofs.
@@ -48,11 +48,11 @@ struct DofGeometry {
     DofOwners owners = {};
 };
 
-/// Preconditioned conjugate gradients. Where dofs are shared all ranks solve together, and the
-/// solution has the rows of this rank.
+/// Preconditioned conjugate gradients. With ranks all solve together, and the solution has the rows
+/// of this rank.
 ///
-/// With rigid modes, where iterations go on for longer than it takes to factor the matrix, as those
-/// of slender stiff bodies, it is factored: one iteration more is then the last.
+/// With the preconditioner RigidModes a matrix is factored after all where iterations take longer
+/// than that would, as those of slender stiff bodies do: one more iteration is then the last.
 ///
 /// @param workers, kernels  Must outlive the solver.
 template <int Dim>
@@ -62,8 +62,8 @@ template <int Dim>
     PreconditionerKind preconditioner,
     DofGeometry<Dim> geometry);
 
-/// Sparse L L^T in double, see Factorization. The residual is that of rounding; a pivot that is not
-/// positive counts as breakdown.
+/// Sparse Cholesky factorization in double, see Factorization. The residual that remains is due to
+/// rounding; a pivot that is not positive counts as breakdown.
 ///
 /// @param kernels  Must outlive the solver.
 /// @param rest     Dim x dofs, m.
@@ -71,7 +71,7 @@ template <int Dim>
 [[nodiscard]] std::unique_ptr<LinearSolver<Dim>> make_direct_solver(const BlockKernels& kernels,
                                                                     BlockVector<Dim> rest);
 
-/// Memory that a direct solve takes, where nothing touches.
+/// Bytes that a direct solve takes, without contact.
 template <int Dim>
 [[nodiscard]] std::int64_t direct_bytes(const BlockPattern& pattern, const BlockVector<Dim>& rest);
 

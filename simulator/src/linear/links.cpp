@@ -8,7 +8,7 @@ namespace pent::simulator {
 
 namespace {
 
-// @param for_each_pair  Calls its argument with every pair that is linked, one way round or both.
+// @param for_each_pair  Calls its argument with every linked pair, in one order or both.
 template <typename ForEachPair>
 Links link(std::size_t nodes, const ForEachPair& for_each_pair) {
     std::vector<std::int64_t> start(nodes + 1, 0);

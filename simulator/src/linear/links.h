@@ -23,22 +23,21 @@ struct Links {
     }
 };
 
-/// Of the dofs that have rows: those that share a block.
+/// The graph of a matrix: dofs that have rows are linked where they share a block.
 [[nodiscard]] Links link_dofs(const BlockPattern& pattern);
 
-/// Those of either of two graphs of the same nodes.
+/// The union of two graphs over the same nodes.
 [[nodiscard]] Links join(const Links& a, const Links& b);
 
-/// Of parts 0 .. parts - 1 of a graph: those of which a node of one is linked to a node of the
-/// other.
+/// The quotient graph of a partition into parts 0 .. parts - 1: two are linked where a node of one
+/// is linked to a node of the other.
 ///
-/// @param part_of  Of each node.
+/// @param part_of  The part of each node.
 [[nodiscard]] Links link_parts(const Links& nodes,
                                const std::vector<std::uint32_t>& part_of,
                                std::size_t parts);
 
-/// A color for each node, from 0, that none of its neighbors has: the first that is free, node by
-/// node.
+/// Greedy coloring: a color for each node, from 0, that none of its neighbors has.
 [[nodiscard]] std::vector<std::uint32_t> color_nodes(const Links& links);
 
 }  // namespace pent::simulator

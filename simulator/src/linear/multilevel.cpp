@@ -12,8 +12,8 @@ namespace pent::simulator {
 
 namespace {
 
-// What unsmoothed aggregation finds of a smooth error is too small, since its pieces meet in jumps;
-// below 2, see cycle().
+// Over-correction [braess1995]: a smooth error, approximated by rigid pieces that meet in jumps,
+// seems stiffer than it is, so that coarse corrections come out too small. Below 2, see cycle().
 constexpr double kCorrection = 1.8;
 
 template <int Dim, typename Scalar>
@@ -29,7 +29,7 @@ public:
           halo_(hierarchy.halo),
           smoother_(std::move(smoother)),
           levels_(hierarchy.levels.size()) {
-        AggregatePlaces<Dim> places;             // of the level before
+        AggregatePlaces<Dim> places;             // of the next finer level
         GhostExchange* exchange = halo_.ghosts;  // of the children
         for (std::size_t l = 0; l < levels_.size(); ++l) {
             const HierarchyLevel& made = hierarchy.levels[l];
@@ -62,7 +62,8 @@ public:
                                                     hierarchy.levels.back(), places, halo_.sharing);
     }
 
-    // Additive: products with the matrix of the mesh are what an iteration costs most.
+    // On the mesh smoother and coarse correction are added, not applied one after the other, which
+    // would take further products with the largest matrix: they are what an iteration costs most.
     double apply(const Workers& workers,
                  const BlockVector<Dim>& r,
                  BlockVector<Dim>& z) const override {
@@ -82,7 +83,8 @@ public:
                          correction.head(coarse.size()).template cast<double>());
     }
 
-    // By the coarsest level alone, where what is solved for is solved for exactly.
+    // By the coarsest level alone, whose exact solution cannot make the error larger in the norm
+    // of A.
     bool correct(const Workers& workers,
                  const BlockVector<Dim>& r,
                  BlockVector<Dim>& x) const override {
@@ -109,9 +111,9 @@ private:
 
     struct Level {
         const Aggregates* aggregates = nullptr;
-        Arms<Dim> arms;  // of the members, see Aggregates::first_of()
+        Arms<Dim> arms;  // in the order of the members, see Aggregates::first_of()
         AggregateMatrix<Dim, Scalar> matrix;
-        GaussSeidel<Dim, Scalar> smoother;  // but for the coarsest
+        GaussSeidel<Dim, Scalar> smoother;  // not on the coarsest level
     };
 
     // Calls work(aggregate, members, arms) with the arms of the members.
@@ -123,10 +125,14 @@ private:
         });
     }
 
-    // z near A^-1 r. Sweeps forth and back make no error grow, so that with a correction enlarged
-    // by alpha < 2 the spectrum of what this does to A is in (0, alpha], if that of the solver
-    // below is in (0, 1]; then two cycles, one on the residual of the other, are in (0, 1] again:
-    // all stays symmetric positive definite, and no worse the more levels there are.
+    // z = B r with B near A^-1 by a W-cycle: a forward sweep, a coarse correction, enlarged by
+    // alpha = kCorrection, and a backward sweep. The correction comes from two cycles on the next
+    // coarser level, the second on the residual of the first.
+    //
+    // Why B is symmetric positive definite for any number of levels: sweeps make no error grow, so
+    // if the spectrum of (coarse solver x coarse matrix) is in (0, 1], that of B A is in
+    // (0, alpha], alpha < 2. Two such cycles leave the error (I - B A)^2, so that the spectrum of
+    // what the next finer level gets, 1 - (1 - x)^2, is in (0, 1] again.
     void cycle(const Workers& workers, std::size_t l, const Vector& r, Vector& z) const {
         const Level& level = levels_[l];
         const Level& next = levels_[l + 1];
@@ -149,7 +155,7 @@ private:
         level.smoother.sweep_back(workers, *kernels_, r, z, shares_);
     }
 
-    // To the aggregates of a level from their children.
+    // Restriction to the aggregates of a level from their children.
     static void restrict_to(const Workers& workers,
                             const Level& level,
                             const Vector& children,
@@ -166,6 +172,7 @@ private:
         });
     }
 
+    // Prolongation: adds the motions of aggregates, times a factor, to their children.
     static void prolong_from(const Workers& workers,
                              const Level& level,
                              double factor,
@@ -181,8 +188,8 @@ private:
         });
     }
 
-    // The same between the vertices and the finest aggregates. Returns what the result is in units
-    // of: it has entries of up to 1, so that however small forces are, float has them.
+    // Restriction from the vertices to the finest aggregates. The result is divided by its largest
+    // entry, which is returned: however small forces are, they do not underflow in float.
     double restrict_finest(const Workers& workers,
                            const BlockVector<Dim>& r,
                            Vector& coarse) const {
@@ -215,7 +222,7 @@ private:
     std::unique_ptr<Preconditioner<Dim>> smoother_;
     std::vector<Level> levels_;  // the finest first
     SharedCoarseSolver<Dim, Scalar> coarsest_;
-    mutable typename AggregateMatrix<Dim, Scalar>::Shares shares_;  // of what is done just now
+    mutable typename AggregateMatrix<Dim, Scalar>::Shares shares_;  // scratch of all levels
 };
 
 }  // namespace

@@ -21,12 +21,11 @@ typename NewtonSystem<Dim>::Matrix make_matrix(const BlockPattern& pattern, Prec
 template <typename Scalar>
 constexpr double kRounding = static_cast<double>(std::numeric_limits<Scalar>::epsilon());
 
-// Rows whose masses are small beside the rounding of the stiffness to float; too small for that;
-// and too small for that to double.
+// How many rows have masses so small beside their stiffness that its rounding matters.
 struct RowCounts {
-    std::int64_t rounded = 0;
-    std::int64_t lost_in_float = 0;
-    std::int64_t lost_in_double = 0;
+    std::int64_t rounded = 0;         // to float: to be compensated for
+    std::int64_t lost_in_float = 0;   // to float: too much for that
+    std::int64_t lost_in_double = 0;  // to double
 
     RowCounts& operator+=(const RowCounts& other) {
         rounded += other.rounded;
@@ -81,11 +80,11 @@ void NewtonSystem<Dim>::add_masses(double weight, const Eigen::VectorXd& masses)
         matrix_);
 }
 
-// In a free body the stiffness cancels for rigid motions, and the rounding that is left takes the
-// place of inertia. In floats 2e-3 of it are let pass; beyond that translations are compensated
-// for, up to 4e-3: rotations, which rounding resists by how far apart the vertices of blocks are,
-// and what is soft beside what is stiff still lose some. In doubles, than which nothing is more
-// exact, it may be 1e-2, as rounding is not all of one sign. Without inertia there is none to lose.
+// The stiffness of a free body cancels for rigid motions, so that what rounding leaves of it acts
+// as a spurious stiffness beside the inertia. In float up to 2e-3 of the inertia are tolerated. Up
+// to 4e-3 translations are compensated for; beyond, what is not compensated would show: rotations,
+// and soft parts beside stiff ones. In double, where there is no higher precision to fall back on,
+// 1e-2 are tolerated, as roundings partly cancel. Statics has no inertia to lose.
 template <int Dim>
 void NewtonSystem<Dim>::weigh_masses() {
     constexpr double kUnseen = 2e-3 / kRounding<float>;
@@ -107,7 +106,7 @@ void NewtonSystem<Dim>::weigh_masses() {
         },
         matrix_);
     is_rounded_ = counts.rounded > 0;
-    // Nothing makes up for what is rounded of stencils.
+    // What is rounded of stencils is not compensated for.
     needs_double_ = counts.lost_in_float > 0 || do_stencils_drown(kUnseen);
     is_lost_in_double_ = counts.lost_in_double > 0 || do_stencils_drown(kMaxInDouble);
 }
@@ -118,7 +117,7 @@ bool NewtonSystem<Dim>::has_lost_inertia() const {
                                                                     : is_lost_in_double_;
 }
 
-// Of single stencils that are to be checked, by their largest diagonal entries.
+// Looks at single stencils that ask for it. Those are springs: numbers[0] is their stiffness.
 template <int Dim>
 bool NewtonSystem<Dim>::do_stencils_drown(double max_ratio) const {
     for (const HessianStencil& stencil : stencils_) {

@@ -15,9 +15,10 @@ namespace pent::simulator {
 
 /// The linear equation H dx = right of Newton's method while potentials put it together.
 ///
-/// Vertices without a dof that are moved all the same (by `displacement`) take their part of H to
-/// the right side. What elements couple lies on a fixed pattern; stencils may couple anything, and
-/// what is left over becomes a second part of the matrix, made anew by finish().
+/// Columns of H for vertices that have no dof, but are moved by a known `displacement`, go to the
+/// right side. Elements have their blocks on a fixed pattern. Stencils may couple any vertices;
+/// what the pattern has no place for becomes a second part of the matrix, made anew by each
+/// finish().
 template <int Dim>
 class NewtonSystem {
 public:
@@ -46,17 +47,19 @@ public:
     void add_stencil(const HessianStencil& stencil) { stencils_.push_back(stencil); }
     void reserve_stencils(std::size_t more) { stencils_.reserve(stencils_.size() + more); }
 
-    /// Weighs all masses against all stiffness, once everything has been added: where masses drown
-    /// in the rounding of what is there, has_lost_inertia() says so. What float rounds of elements
-    /// is made up for where it matters, which lets masses be lighter.
+    /// Compares masses with the rounding of the stiffness, once everything has been added. Where
+    /// that would hide them has_lost_inertia() and needs_double() say so; where it would merely
+    /// show, finish() compensates for what float has rounded of elements, see
+    /// BlockMatrix::compensate().
     void weigh_masses();
 
-    /// Sums up the stencils, each row by one thread in the order in which they were added, once
-    /// masses have been weighed. Lets go of `displacement`.
+    /// Sums up the stencils, each row by one thread in the order in which they were added. Comes
+    /// after weigh_masses(). Releases `displacement`.
     void finish();
 
+    /// Whether masses are lost in the rounding of this matrix.
     [[nodiscard]] bool has_lost_inertia() const;
-    /// Whether masses drown, or would, in the rounding to float.
+    /// Whether masses are lost in float, or would be, if this matrix is in double.
     [[nodiscard]] bool needs_double() const { return needs_double_; }
     [[nodiscard]] bool has_stencils() const { return !stencils_.empty(); }
 
@@ -82,7 +85,8 @@ private:
     Eigen::VectorXd masses_;  // of dofs: what add_masses() has added, kg
     Positions<Dim> prescribed_displacement_;
     std::vector<HessianStencil> stencils_;
-    bool is_rounded_ = false;  // or would be in float, so that rigid motions would show it
+    // What weigh_masses() has found.
+    bool is_rounded_ = false;  // rigid motions would show rounding to float
     bool needs_double_ = false;
     bool is_lost_in_double_ = false;
 };

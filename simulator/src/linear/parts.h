@@ -7,7 +7,7 @@
 
 namespace pent::simulator {
 
-/// Calls work(first, last) for parts of [begin, end) of `size` each, at the same time.
+/// Calls work(first, last), in parallel, for parts of [begin, end) of `size` each.
 template <typename Work>
 void for_each_part(const Workers& workers,
                    std::int64_t begin,
@@ -20,6 +20,6 @@ void for_each_part(const Workers& workers,
     });
 }
 
-inline constexpr std::int64_t kModeRows = 16;  ///< Rows of modes of aggregates to a part.
+inline constexpr std::int64_t kModeRows = 16;  ///< Rows of a coarse matrix to a part.
 
 }  // namespace pent::simulator

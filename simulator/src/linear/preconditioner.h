@@ -11,7 +11,7 @@
 
 namespace pent::simulator {
 
-/// z = B r for a symmetric positive definite B near the inverse of a matrix.
+/// z = B r for a symmetric positive definite B that approximates the inverse of a matrix.
 template <int Dim>
 class Preconditioner {
 public:
@@ -22,15 +22,15 @@ public:
     Preconditioner(Preconditioner&&) = delete;
     Preconditioner& operator=(Preconditioner&&) = delete;
 
-    /// One call at a time: it may have room of its own for what it does.
+    /// Not to be called concurrently: implementations may have scratch of their own.
     ///
-    /// @return  r . z over the rows of this rank, found on the way, to the precision of B.
+    /// @return  r . z over the rows of this rank, a by-product, as exact as B.
     virtual double apply(const Workers& workers,
                          const BlockVector<Dim>& r,
                          BlockVector<Dim>& z) const = 0;
 
-    /// Adds to x what a coarse space, if there is one, makes of the residual r: a better first
-    /// guess. Bodies that move rigidly are then solved for at once.
+    /// Adds to x the correction of the coarse space, if there is one, for the residual r: a better
+    /// initial guess. Bodies that only move rigidly are then solved for at once.
     ///
     /// @return  Whether x has changed.
     [[nodiscard]] virtual bool correct(const Workers& /*workers*/,
@@ -40,14 +40,15 @@ public:
     }
 };
 
-/// Block Jacobi along the columns of an extruded mesh: the dofs of all layers above one base
-/// vertex are solved for together, by factorization of a band of blocks: layers up to two apart may
-/// be coupled.
+/// Line Jacobi along the columns of an extruded mesh: the dofs of all layers above one base vertex
+/// are solved for together, by a banded block factorization (layers up to two apart are coupled).
 ///
-/// Thin layers couple the vertices of a column far more strongly than its neighbors, which is what
-/// makes point-wise Jacobi slow there. Columns of single vertices are plain block Jacobi.
+/// Thin layers couple the vertices of a column far more strongly to one another than to those of
+/// other columns, which makes point-wise Jacobi slow. With columns of single vertices it is plain
+/// block Jacobi.
 ///
-/// @param column_start  As DofMap::column_start(); single dofs for block Jacobi.
+/// @param column_start  As DofMap::column_start(); single dofs for block Jacobi. Must outlive the
+///                      result.
 template <int Dim, typename Scalar>
 [[nodiscard]] std::unique_ptr<Preconditioner<Dim>> column_jacobi(
     const Workers& workers,
@@ -55,21 +56,21 @@ template <int Dim, typename Scalar>
     const BlockMatrix<Dim, Scalar>& matrix,
     const std::vector<std::uint32_t>& column_start);
 
-/// Adds rigid motions of aggregates, on several levels, to a smoother:
+/// Aggregation multigrid over a smoother S:
 ///
-///     z = S r + P C P^T r,     C near (P^T A P)^-1 by multigrid
+///     z = S r + P C P^T r,     C near (P^T A P)^-1
 ///
-/// The columns of P are the rigid motions of each aggregate (Dim translations and a rotation in
-/// each of the Dim (Dim - 1) / 2 planes), which are what a smoother removes slowest. On the levels
-/// below, C is a Gauss-Seidel sweep before and one after a correction by larger aggregates, which
-/// is enlarged by 1.8, in a W-cycle; the coarsest is solved exactly. Plain aggregation [notay2010]
-/// of rigid modes [vanek1996] with over-correction [braess1995].
+/// The columns of P are the rigid modes of each aggregate (Dim translations and a rotation in each
+/// of the Dim (Dim - 1) / 2 planes), the errors that a smoother removes slowest. C is a W-cycle
+/// over ever larger aggregates: a Gauss-Seidel sweep before and one after a coarse correction,
+/// which is enlarged by 1.8; the coarsest level is solved exactly. Plain aggregation [notay2010] of
+/// rigid modes [vanek1996] with over-correction [braess1995].
 ///
-/// Where ranks share the dofs each has a part of every level, its own aggregates, and their
-/// vectors are exchanged beside the sweeps; the coarsest level is on all of them.
+/// With ranks each has its own aggregates of every level, and halos of vectors over aggregates are
+/// exchanged between sweeps; the coarsest level is solved on all ranks together.
 ///
 /// @param hierarchy  Must outlive the result.
-/// @param positions  Dim x dofs, where the vertices are now, m; of this rank at least.
+/// @param positions  Dim x dofs, where the vertices are now, m; ghosts are not read.
 template <int Dim, typename Scalar>
 [[nodiscard]] std::unique_ptr<Preconditioner<Dim>> multilevel(
     const Workers& workers,
@@ -79,9 +80,9 @@ template <int Dim, typename Scalar>
     const BlockVector<Dim>& positions,
     std::unique_ptr<Preconditioner<Dim>> smoother);
 
-/// B = A^-1 by the factors of a matrix without a coupling, so that one iteration does.
+/// B = A^-1 by a Cholesky factorization of A: one iteration of conjugate gradients will do.
 ///
-/// @param elimination  Of the links of A; must outlive the result.
+/// @param elimination  Of the links of A and of its coupling; must outlive the result.
 /// @return             Null where a pivot is not positive.
 template <int Dim, typename Scalar>
 [[nodiscard]] std::unique_ptr<Preconditioner<Dim>> exact_inverse(const BlockKernels& kernels,

@@ -2,8 +2,9 @@
 
 namespace pent::simulator {
 
-/// The rigid modes of an aggregate: Dim translations, then for each plane p < q the rotation
-/// e_q x_p - e_p x_q about its middle, x in units of its size.
+/// The rigid-body modes of an aggregate: Dim translations, then for each plane p < q the linearized
+/// rotation e_q x_p - e_p x_q about its centroid, x in units of its size so that all modes are of
+/// the same order.
 template <int Dim>
 inline constexpr int kModes = Dim*(Dim + 1) / 2;
 

@@ -9,27 +9,28 @@
 
 namespace pent::simulator {
 
-/// Where a child lies in its aggregate: Dim + 1 numbers, without gaps.
+/// The lever arm of a child: where it lies in its aggregate. Dim + 1 numbers without padding.
 template <int Dim>
 struct Arm {
-    /// From the middle of the aggregate, in units of its size.
+    /// From the centroid of the aggregate, in units of its size.
     Eigen::Matrix<double, Dim, 1, Eigen::DontAlign> x;
     double ratio;  ///< Size of the child in units of that of the aggregate.
 };
 
-/// One after the other.
+/// Contiguous, as kernels read them.
 template <int Dim>
 using Arms = std::vector<Arm<Dim>, LineAllocator<Arm<Dim>>>;
 
-/// What the modes of an aggregate do to one of its children, T: Rows x modes. The unknowns of the
-/// child are Dim coordinates of a vertex, or its own modes; the same motion either way.
+/// The prolongation from an aggregate to one of its children, T: Rows x modes. The unknowns of the
+/// child are the Dim coordinates of a vertex, or the modes of an aggregate of the next finer level,
+/// which then moves rigidly with this one.
 template <int Dim, int Rows>
 struct RigidModes {
     static_assert(Rows == Dim || Rows == kModes<Dim>);
     using Child = Eigen::Matrix<double, Rows, 1>;
     using Modes = Eigen::Matrix<double, kModes<Dim>, 1>;
 
-    /// T^T r.
+    /// Restriction, T^T r: forces on the child, as forces and moments on the aggregate.
     static Modes force(const Child& r, const Arm<Dim>& arm) {
         Modes modes;
         modes.template head<Dim>() = r.template head<Dim>();
@@ -42,7 +43,7 @@ struct RigidModes {
         return modes;
     }
 
-    /// T c.
+    /// Prolongation, T c: how the child moves with the aggregate.
     static Child motion(const Modes& c, const Arm<Dim>& arm) {
         Child child;
         child.template head<Dim>() = c.template head<Dim>();

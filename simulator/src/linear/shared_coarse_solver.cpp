@@ -12,7 +12,9 @@ namespace pent::simulator {
 
 namespace {
 
-// @param first  Rows of the ranks before each.
+// The rows of this rank, of both triangles, with columns counted over all ranks.
+//
+// @param first  First row of each rank.
 template <int Dim, typename Scalar>
 SpreadMatrix spread(const AggregateMatrix<Dim, Scalar>& A,
                     const Ghosts& ghosts,
@@ -59,7 +61,7 @@ SpreadMatrix spread(const AggregateMatrix<Dim, Scalar>& A,
     return spread;
 }
 
-// What each rank has, in their order.
+// Concatenates what each rank has, in their order.
 std::vector<double> gather(const Sharing& sharing, const std::vector<double>& own) {
     std::vector<std::int64_t> sizes;
     for (const double size : sharing.list(static_cast<double>(own.size()))) {
@@ -68,14 +70,14 @@ std::vector<double> gather(const Sharing& sharing, const std::vector<double>& ow
     return sharing.ranks().gather(own, sizes);
 }
 
-// All rows of all ranks.
+// Gathers the rows of all ranks and factors them, the same on all.
 template <int Dim, typename Scalar>
 CoarseSolver<Dim, Scalar> factor(const Workers& workers,
                                  const Sharing& sharing,
                                  const SpreadMatrix& own) {
     using Matrix = AggregateMatrix<Dim, Scalar>;
     using Rows = Eigen::Matrix<double, kModes<Dim>, kModes<Dim>, Eigen::RowMajor>;
-    std::vector<double> blocks;  // of each row
+    std::vector<double> blocks;  // how many each row has
     for (std::size_t row = 0; row + 1 < own.row_start.size(); ++row) {
         blocks.push_back(static_cast<double>(own.row_start[row + 1] - own.row_start[row]));
     }
@@ -122,7 +124,7 @@ void make_diagonal_definite(SpreadMatrix& matrix) {
     }
 }
 
-// Rigid motions of everything, in terms of the modes of aggregates.
+// The rigid motions of all aggregates together, in the modes of each: the near kernel.
 template <int Dim>
 Eigen::MatrixXd rigid_motions(const AggregatePlaces<Dim>& places) {
     constexpr int kSize = kModes<Dim>;

@@ -9,18 +9,18 @@
 
 namespace pent::simulator {
 
-/// CoarseSolver where the rows of a matrix may be spread over ranks: each then has all rows and
-/// solves for all, one message each way, as long as they are kMaxDense at most; what is larger is
-/// for Ranks::make_solver().
+/// Solver of the coarsest level where its rows may be spread over ranks. Up to kMaxDense rows are
+/// gathered on every rank, each of which factors and solves the whole, so that a solve takes one
+/// gathering; more are left to Ranks::make_solver(). Without ranks a CoarseSolver.
 template <int Dim, typename Scalar>
 class SharedCoarseSolver {
 public:
     using Vector = typename AggregateMatrix<Dim, Scalar>::Vector;
 
     SharedCoarseSolver() = default;
-    /// @param level    Of the rows of A.
+    /// @param level    Of which A is the matrix.
     /// @param places   Of the aggregates of this rank.
-    /// @param sharing  Null where nothing is shared; must outlive this.
+    /// @param sharing  Null without ranks; must outlive this.
     SharedCoarseSolver(const Workers& workers,
                        const AggregateMatrix<Dim, Scalar>& A,
                        const HierarchyLevel& level,
@@ -32,10 +32,10 @@ public:
 
 private:
     const Sharing* sharing_ = nullptr;
-    std::vector<std::int64_t> sizes_;       // numbers of each rank
-    Eigen::Index first_ = 0;                // of this rank
-    CoarseSolver<Dim, Scalar> whole_;       // unless there is the other
-    std::unique_ptr<SpreadSolver> spread_;  // or null
+    std::vector<std::int64_t> sizes_;       // how many numbers of a vector each rank has
+    Eigen::Index first_ = 0;                // first number of this rank
+    CoarseSolver<Dim, Scalar> whole_;       // unused where there is spread_
+    std::unique_ptr<SpreadSolver> spread_;  // null where whole_ is used
 };
 
 }  // namespace pent::simulator

@@ -11,11 +11,11 @@ namespace pent::simulator {
 
 namespace {
 
-// Vertices that ranks tell one another of at a time: copies of all would be as large as what they
-// are told.
+// How many vertices are gathered at a time. All at once would take buffers as large as the array
+// itself.
 constexpr std::size_t kPiece = std::size_t{1} << 16;
 
-// Gives every column, one a vertex, what it is on the rank that owns the vertex.
+// Sets every column, one a vertex, to what the rank that owns the vertex has there.
 //
 // @param owners  Of these vertices.
 // @param values  Column-major, `Rows` numbers a column.

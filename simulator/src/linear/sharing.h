@@ -9,8 +9,8 @@
 
 namespace pent::simulator {
 
-/// Which vertices are whose, and what ranks have to say to one another about them. One rank, which
-/// owns everything, unless it is made for more: nothing is then told, and sums are what they were.
+/// Which rank owns which vertex, and reductions over ranks. By default there are no ranks: this
+/// process owns everything, and a reduction returns what it is given.
 class Sharing {
 public:
     Sharing() = default;
@@ -35,7 +35,7 @@ public:
         return ranks_ == nullptr ? vertices : counts_[rank_];
     }
 
-    /// Sums over ranks, in their order.
+    /// Sums over ranks, added in the order of ranks: the same bits on all of them.
     [[nodiscard]] double sum(double value) const;
     [[nodiscard]] std::int64_t sum(std::int64_t value) const;  ///< Below 2^53.
     void sum(std::vector<double>& values) const;
@@ -43,10 +43,10 @@ public:
     /// Whether it is so on any rank.
     [[nodiscard]] bool any(bool is_so) const;
 
-    /// One number of each rank, in their order; the number itself where nothing is shared.
+    /// One number of each rank, in their order; without ranks the number itself.
     [[nodiscard]] std::vector<double> list(double value) const;
 
-    /// Gives every column, one a vertex, what it is on the rank that owns the vertex.
+    /// Sets every column, one a vertex, to what the rank that owns the vertex has there.
     template <int Rows>
     void gather(Eigen::Matrix<double, Rows, Eigen::Dynamic>& values) const;
 

@@ -10,17 +10,18 @@ namespace pent::simulator {
 
 namespace {
 
-// Rows are cut into at most this many chunks, each with a table of all columns.
+// Rows are cut into at most this many chunks, as each has a table of all columns.
 constexpr std::size_t kMaxChunks = 64;
 constexpr std::size_t kMinRows = 32;
 
-/// Corner `corner` of a stencil is at a row.
+// A row of a stencil: that of one of its corners.
 struct Incidence {
     std::uint32_t stencil = 0;
     std::uint32_t corner = 0;
 };
 
-/// The rows that have stencils, ascending, and those of each in their order.
+// The rows of the matrix that stencils add to, ascending, and for each what adds to it, in the
+// order of the stencils.
 struct Incidences {
     std::vector<std::uint32_t> rows;
     std::vector<std::uint32_t> begin;  // rows.size() + 1 entries
@@ -54,7 +55,7 @@ Incidences list_by_rows(const DofMap& dofs, const std::vector<HessianStencil>& s
     return incidences;
 }
 
-/// Blocks of some rows that the fixed pattern does not have.
+// Blocks of some rows that the fixed pattern has no place for.
 template <int Dim, typename Scalar>
 struct Leftover {
     std::vector<std::uint32_t> counts;  // one a row
@@ -62,7 +63,8 @@ struct Leftover {
     std::vector<Eigen::Matrix<Scalar, Dim, Dim>> blocks;
 };
 
-/// Sums the blocks of one row after the other.
+// Sums up one row after another: a sparse accumulator, whose slots are first the blocks of the
+// fixed pattern, then those that it has no place for, as they turn up.
 template <int Dim, typename Scalar>
 class RowSum {
 public:
@@ -144,7 +146,8 @@ private:
         return {first + std::ptrdiff_t{Dim} * stencil.rank * corner, Dim, stencil.rank};
     }
 
-    // Those of a row that block(corner) gives. What is below the diagonal is not asked for.
+    // Adds the blocks block(j) of a row with all corners j; those below the diagonal are not
+    // computed.
     template <typename BlockOf>
     void add_blocks(std::uint32_t row, const HessianStencil& stencil, const BlockOf& block) {
         for (std::int32_t j = 0; j < stencil.count; ++j) {
@@ -189,14 +192,14 @@ private:
     const Positions<Dim>& displacement_;
     BlockMatrix<Dim, Scalar>& matrix_;
     BlockVector<Dim>& right_;
-    std::vector<std::uint32_t> slots_;  // of columns, one more than the place in sums_; 0 for none
-    std::vector<std::uint32_t> columns_;
-    std::vector<Block> sums_;
+    std::vector<std::uint32_t> slots_;    // by column: its slot + 1, or 0 for none
+    std::vector<std::uint32_t> columns_;  // of each slot
+    std::vector<Block> sums_;             // of each slot
     Eigen::Matrix<double, Dim, Dim * Dim> scaled_;
     std::vector<std::size_t> order_;
 };
 
-// Puts what is left over of all rows into one matrix.
+// Joins the leftovers of all chunks of rows into one matrix.
 template <int Dim, typename Scalar>
 std::unique_ptr<CouplingMatrix<Dim, Scalar>> join(const DofMap& dofs,
                                                   const std::vector<std::uint32_t>& rows,
@@ -220,7 +223,7 @@ std::unique_ptr<CouplingMatrix<Dim, Scalar>> join(const DofMap& dofs,
     auto part = parts.begin();
     std::size_t next = 0;
     for (std::uint32_t row = 0; row < counts.size(); ++row) {
-        pattern.columns.push_back(row);  // a diagonal of zeros, as products want it
+        pattern.columns.push_back(row);  // zeros: a pattern has all diagonal blocks
         for (std::uint32_t k = 0; k < counts[row]; ++k) {
             while (next == part->columns.size()) {
                 ++part;

@@ -27,13 +27,13 @@ struct CouplingMatrix {
 
 /// Adds stencils to a matrix.
 ///
-/// Blocks that `matrix` has a place for go there. The others (in contact all those between the two
-/// simplices of a pair) are returned on a pattern of their own: a matrix that is small where little
-/// touches, made anew each time, since what touches changes. Each row is summed by one thread in
-/// the order of the stencils.
+/// Blocks that the pattern of `matrix` has a place for go there. The others (of contact all those
+/// between the two simplices of a pair) are returned on a pattern of their own, made anew each
+/// time, since contacts change; it is small where little touches. Each row is summed by one thread
+/// in the order of the stencils.
 ///
 /// @param displacement  Dim x vertices: how far vertices without a dof move, m.
-/// @param right         Dim x dofs: less K_fixed displacement.
+/// @param right         Dim x dofs; the columns of such vertices times displacement are subtracted.
 /// @return              Null if no block is left over.
 template <int Dim, typename Scalar>
 [[nodiscard]] std::unique_ptr<CouplingMatrix<Dim, Scalar>> assemble_stencils(
