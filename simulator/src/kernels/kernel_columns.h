@@ -5,11 +5,13 @@
 #include "kernels/kernel_vertices.h"
 #include "linear/block_kernels.h"
 
-// Factors of columns of dofs, a column a lane, and solves with them.
+// Line Jacobi: factors the diagonal block of each extrusion column, a column a lane, and solves
+// with the factors.
 //
-// Banded block L D L^T of each column: with A_k,k+j the coupling of layers k and k + j <= k + band,
+// Banded block L D L^T: with A_k,k+j the coupling of layers k and k + j <= k + band,
 //   D_k = A_kk - sum over m of S_(k-m),k^T D_(k-m)^-1 S_(k-m),k
-//   S_k,k+j = A_k,k+j - sum over m of S_(k-m),k^T D_(k-m)^-1 S_(k-m),k+j,   E_k,j = D_k^-1 S_k,k+j.
+//   S_k,k+j = A_k,k+j - sum over m of S_(k-m),k^T D_(k-m)^-1 S_(k-m),k+j,   E_k,j = D_k^-1 S_k,k+j
+// and L_k+j,k = E_k,j^T. D_k^-1 and E_k,j are stored, so that solves need products only.
 
 // Tensors of lanes are filled entry by entry right after they are declared; zeroing them first
 // would cost as much as using them. NOLINTBEGIN(cppcoreguidelines-pro-type-member-init)
@@ -33,7 +35,7 @@ struct LaneBlocks {
             at[lane][entry] = static_cast<double>(block[entry]);
         }
     }
-    // `diagonal` times the identity.
+    // Sets a lane to `diagonal` times the identity.
     void set(int lane, double diagonal) {
         for (int i = 0; i < Dim; ++i) {
             for (int j = 0; j < Dim; ++j) {
@@ -82,10 +84,10 @@ void subtract_transposed_times(const Tensor<Real, Dim>& A,
     }
 }
 
-// Of a symmetric matrix, of which the upper triangle is read, by its L D L^T; symmetric to the bit,
-// as conjugate gradients want it.
+// Inverse of a symmetric matrix, of which the upper triangle is read, by L D L^T. Symmetric to the
+// bit, as preconditioners of conjugate gradients have to be.
 //
-// @param is_definite  Set to 0 in lanes where a pivot or its inverse is not a positive number.
+// @param is_definite  Set to 0 in lanes where a pivot or its inverse is not positive and finite.
 template <typename Real, int Dim>
 Tensor<Real, Dim> inverse_of(const Tensor<Real, Dim>& A, Real& is_definite) {
     using L = Lanes<Real>;
@@ -136,14 +138,16 @@ Tensor<Real, Dim> inverse_of(const Tensor<Real, Dim>& A, Real& is_definite) {
     return inverse;
 }
 
-// Rows of one dof of each column in its factors: toward the j-th behind it.
+// The row of one dof in the factors of its column, in every lane: entry j - 1 couples it with the
+// j-th layer behind it.
 template <typename Real, int Dim>
 struct FactorRow {
     Tensor<Real, Dim> plain[kMaxBand];   // S
     Tensor<Real, Dim> scaled[kMaxBand];  // E
 };
 
-// As many columns as there are lanes, side by side; the short ones go on with identities.
+// As many columns as there are lanes, factored side by side. Short ones continue with identities
+// until the longest ends.
 template <int Dim, typename Real, typename Scalar>
 class ColumnPack {
 public:
@@ -162,7 +166,7 @@ public:
     void factor(std::uint8_t* has_failed) {
         const auto band = static_cast<int>(factors_->band);
         Real is_definite = Real(1.0);
-        FactorRow<Real, Dim> rows[kMaxBand + 1];  // the last ones
+        FactorRow<Real, Dim> rows[kMaxBand + 1];  // ring buffer of the last layers
         for (std::uint32_t k = 0; k < longest_; ++k) {
             const auto row_above = [&](int m) -> const FactorRow<Real, Dim>& {
                 return rows[(k + kMaxBand + 1 - static_cast<std::uint32_t>(m)) % (kMaxBand + 1)];
@@ -210,7 +214,8 @@ private:
         return product;
     }
 
-    // The blocks that couple layer k with the j-th behind it, zero where there is none.
+    // The blocks that couple layer k with the j-th behind it, zero where there is none; the
+    // identity on the diagonal of columns that have ended.
     Tensor<Real, Dim> load(std::uint32_t k, int j) {
         for (int lane = 0; lane < kWidth; ++lane) {
             const std::uint32_t row = begin_[lane] + k;
@@ -235,7 +240,7 @@ private:
         return nullptr;
     }
 
-    // Into the block `place` of `blocks` that each dof has in an array.
+    // Stores into block `place` of the `blocks` that each dof has in an array.
     void store(
         const Tensor<Real, Dim>& values, std::uint32_t k, float* array, int blocks, int place) {
         staged_.store(values);
@@ -265,7 +270,7 @@ void factor_columns(const BlockRows<Scalar>& matrix,
     }
 }
 
-// Brings near the factors of the dof that is next but 63, a page ahead: see ReadAhead.
+// Prefetches the factors of the dof 64 further on, in the next page: see ReadAhead.
 template <int Dim>
 [[gnu::always_inline]] inline void prefetch_factors(const ColumnFactors<const float>& factors,
                                                     std::size_t dof) {
@@ -277,8 +282,8 @@ template <int Dim>
     }
 }
 
-// Several columns layer by layer at the same time: each layer waits for the one before, and while
-// one column waits the others go on.
+// Forward and backward substitution. Within a column each layer waits for the one before, so
+// several columns are solved layer by layer side by side, to hide the latency.
 template <int Dim, bool IsVectorized>
 void solve_columns(const ColumnFactors<const float>& factors, const double* r, double* z) {
     using Vertex = typename VertexOf<Dim, IsVectorized>::Type;

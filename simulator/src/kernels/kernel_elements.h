@@ -5,7 +5,7 @@
 #include "kernels/kernels.h"
 #include "kernels/quadratic_rule.h"
 
-// Groups of elements and their gradients, in lanes.
+// Groups of elements, and energies and gradients of linear simplices, an element a lane.
 
 // Tensors of lanes are filled entry by entry right after they are declared; zeroing them first
 // would cost as much as using them. NOLINTBEGIN(cppcoreguidelines-pro-type-member-init)
@@ -25,7 +25,7 @@ struct Group {
     int elements;  // lanes in use
     std::uint32_t dof_count;
 
-    // Of a corner of an element, dof_count or more where it is held.
+    // The dof of a corner of an element; dof_count or more where it is held.
     [[nodiscard]] std::uint32_t dof(int corner, int lane) const {
         return dofs[vertices[corner * kGroup + lane]];
     }
@@ -50,25 +50,25 @@ Group<Dim> group_at(const ElementRun& run, int group) {
             run.dof_count};
 }
 
-// So many groups after another of a run, or its last one.
+// The group `by` further on in a run, or its last one.
 template <int Dim>
 Group<Dim> group_ahead(const ElementRun& run, int group, int by) {
     const int last = (run.elements - 1) / kGroup;
     return group_at<Dim>(run, group + by < last ? group + by : last);
 }
 
-// Places of the blocks of one corner with itself and all after it.
+// Matrix blocks of corner a with itself and with all corners after it.
 template <int Dim>
 const std::int32_t* row_of_blocks(const Group<Dim>& group, int a) {
     return group.blocks + std::int64_t{a * group.corners - a * (a - 1) / 2} * kGroup;
 }
 
-// Brings near what a group two ahead is read of, with each corner of the group at hand its share.
-// Processors look ahead by themselves, but not beyond the end of a page, of which each has some 25
-// elements; and all of a group at once would wait for itself, since so many reads cannot be under
-// way. What only prefetches is inlined: g++ leaves out calls of what has no effect that it knows.
+// Prefetches the data of the group two ahead, a share of it with each corner of the current group.
+// Hardware prefetchers stop at the end of a page, and a page holds only some 25 elements; and
+// prefetching a whole group at once would stall, as only so many reads can be in flight. What
+// only prefetches has to be inlined: g++ removes calls of functions without effects that it knows.
 //
-// @param WithPlaces  Whether places of blocks are read, too.
+// @tparam WithPlaces  Whether `blocks` will be read, too.
 template <int Dim, bool WithPlaces = false>
 class ReadAhead {
 public:
@@ -95,10 +95,11 @@ private:
     static constexpr int kLine = 64 / sizeof(double);
 
     Group<Dim> group_;
-    std::int64_t rest_share_;  // of a corner, in numbers
+    std::int64_t rest_share_;  // numbers of `rest` to prefetch with each corner
 };
 
-// x_a - x_0 of every element of a group, subtracted in double: to[axis][lane].
+// x_a - x_0 of every element of a group, to[axis][lane]: subtracted in double, as positions may be
+// large beside edges, even where all that follows is in float.
 template <int Dim, bool IsVectorized>
 void gather_edge(const Group<Dim>& group,
                  int corner,
@@ -117,7 +118,7 @@ void gather_edge(const Group<Dim>& group,
     }
 }
 
-// All edges: [a - 1][axis][lane].
+// All edges from corner 0: [a - 1][axis][lane].
 template <int Dim>
 struct Edges {
     alignas(64) double at[Dim][Dim][kGroup];
@@ -166,7 +167,7 @@ Tensor<Real, Dim> deformation(const Edges<Dim>& edges, const Tensor<Real, Dim>& 
     return F;
 }
 
-// Energies of a group and what tells inverted and collapsed elements: [lane].
+// Energies of a group, and what inverted and collapsed elements are told by: [lane].
 struct GroupEnergies {
     alignas(64) double energy[kGroup];
     alignas(64) double det[kGroup];
@@ -193,7 +194,8 @@ void add_to_vertex(const Vertex& part, double* sum) {
     store(loaded<Vertex>(sum) + part, sum);
 }
 
-// Adds part[corner][axis][lane]: element after element, all corners of one before the next.
+// Adds part[corner][axis][lane] to the gradient, all corners of one element before the next one:
+// see scatter_blocks().
 template <int Dim, bool IsVectorized>
 void add_to_corners(const Group<Dim>& group,
                     const double (&part)[Dim + 1][Dim][kGroup],
@@ -213,6 +215,8 @@ void add_to_corners(const Group<Dim>& group,
     }
 }
 
+// The gradient at a corner is volume * P g, g being its rest gradient: a row of Dm^-1, and for
+// corner 0 minus the sum of the others.
 template <int Dim, typename Real>
 RunEnergy add_gradient(const ElementRun& run, const double* positions, double* gradient) {
     constexpr int kWidth = Lanes<Real>::kCount;

@@ -5,17 +5,18 @@
 
 #include <cstddef>
 
-// Dense factors of the fronts of a sparse factorization.
+// Dense Cholesky factorization of fronts, see Front: left-looking over blocks of kFrontColumns
+// columns. Most of the work is in subtract_tile(), a register-blocked product.
 
 namespace pent::simulator {
 namespace {  // NOLINT(google-build-namespaces): see kernel_lanes.h
 
-// DenseMatrix that are worked on together, and registers of rows beside them: with AVX2 twelve of
-// sixteen registers are sums, three rows and one a number of a column.
+// Columns of a tile, and registers of rows in it: with AVX2 twelve of the sixteen registers hold
+// sums, three hold rows of A, and one a number of B.
 inline constexpr std::size_t kFrontColumns = 4;
 inline constexpr int kFrontRegisters = 3;
 
-// A matrix by columns.
+// A column-major matrix.
 struct DenseMatrix {
     double* values = nullptr;
     std::size_t stride = 0;  // from a column to the next
@@ -25,7 +26,8 @@ struct DenseMatrix {
     }
 };
 
-// C -= A B^T, for C of so many registers of rows and of so many columns.
+// C -= A B^T for a tile C of Registers registers of rows and Count columns; A and B have `depth`
+// columns.
 template <typename Real, int Registers, int Count>
 void subtract_tile(const DenseMatrix& A,
                    const DenseMatrix& B,
@@ -57,7 +59,7 @@ void subtract_tile(const DenseMatrix& A,
     }
 }
 
-// The same for any number of rows that fill registers.
+// The same for any number of rows that is a multiple of the lanes.
 template <typename Real, int Count>
 void subtract_columns(const DenseMatrix& A,
                       const DenseMatrix& B,
@@ -76,7 +78,7 @@ void subtract_columns(const DenseMatrix& A,
     }
 }
 
-// And of up to kFrontColumns columns.
+// And for up to kFrontColumns columns.
 template <typename Real>
 void subtract_product(const DenseMatrix& A,
                       const DenseMatrix& B,
@@ -96,7 +98,7 @@ void subtract_product(const DenseMatrix& A,
     }
 }
 
-// L L^T of a small block, in place; false where a pivot is not positive.
+// Cholesky factor of a small block, in place; false where a pivot is not positive and finite.
 inline bool factor_block(const DenseMatrix& A, std::size_t size) {
     for (std::size_t j = 0; j < size; ++j) {
         for (std::size_t k = 0; k < j; ++k) {
@@ -116,7 +118,7 @@ inline bool factor_block(const DenseMatrix& A, std::size_t size) {
     return true;
 }
 
-// Rows R of a panel become R L^-T.
+// R = R L^-T, for rows R of a panel below a factored block L.
 template <typename Real>
 void solve_rows(const DenseMatrix& L, std::size_t size, std::size_t rows, const DenseMatrix& R) {
     using Pack = Lanes<Real>;

@@ -9,14 +9,15 @@
 #include <cstdint>
 #include <utility>
 
-// Products P^T A P with the rigid modes of aggregates, row of aggregates by row: see GalerkinRow.
-// With T what the modes do to one child, H T is added up over the children of one aggregate first,
-// then T^T of that over those of the row.
+// Galerkin products P^T H P with the rigid modes of aggregates, a row of aggregates at a time: see
+// GalerkinRow. T_i is the prolongation to child i, see RigidModes. For each child i of the row the
+// products H_ij T_j are summed up over the children j of one aggregate (a Product); T_i^T times
+// that is then added to the block of that aggregate (a Sum).
 
 namespace pent::simulator {
 namespace {  // NOLINT(google-build-namespaces): see kernel_lanes.h
 
-// The numbers of a block in the order of block_order.h, one by one or as many as a register has.
+// The numbers of a block in the order of block_order.h: an array, or, below, registers.
 template <int Dim, bool IsVectorized, typename Scalar>
 struct BlockNumbers {
     Scalar at[Dim * Dim];
@@ -26,11 +27,11 @@ struct BlockNumbers {
         __builtin_memcpy(numbers.at, block, sizeof numbers.at);
         return numbers;
     }
-    // In each column what x has at column ^ `turn`, zero where it has nothing.
+    // A block with x[j ^ turn] in all of column j; zero where x has no such number.
     static BlockNumbers of_columns(const Scalar* x, int turn) {
         return filled([&](int /*i*/, int j) { return (j ^ turn) < Dim ? x[j ^ turn] : 0; });
     }
-    // In each row what x has at row ^ `turn`.
+    // A block with x[i ^ turn] in all of row i.
     static BlockNumbers of_rows(const Scalar* x, int turn) {
         return filled([&](int i, int /*j*/) { return (i ^ turn) < Dim ? x[i ^ turn] : 0; });
     }
@@ -62,7 +63,7 @@ private:
 
 template <typename Scalar>
 struct BlockNumbers<4, true, Scalar> {
-    // No less than fours, whose numbers change places.
+    // At least four numbers wide, since permutations are within fours.
     static constexpr int kWidth = Widest<Scalar>::kCount < 4 ? 4 : Widest<Scalar>::kCount;
     static constexpr int kCount = 16 / kWidth;
     using Some = Pack<Scalar, kWidth>;
@@ -87,7 +88,7 @@ struct BlockNumbers<4, true, Scalar> {
         }
         return all;
     }
-    // Diagonal k has rows column ^ k.
+    // The numbers of diagonal k are in rows column ^ k.
     static BlockNumbers of_rows(const Scalar* x, int turn) {
         const auto by = permuted(loaded<FourOf<Scalar>>(x));
         BlockNumbers all;
@@ -129,13 +130,13 @@ private:
                        std::index_sequence<Lane...> /*lanes*/) {
         return __builtin_shufflevector(first, second, static_cast<int>(Lane)...);
     }
-    // One after the other.
+    // Concatenated.
     template <typename Vector>
     static auto joined(const Vector& first, const Vector& second) {
         constexpr std::size_t kLanes = sizeof(Vector) / sizeof(Scalar);
         return joined(first, second, std::make_index_sequence<2 * kLanes>());
     }
-    // Over and over.
+    // Repeated until the register is full.
     template <typename Vector>
     static Some repeated(const Vector& numbers) {
         if constexpr (sizeof(Vector) == sizeof(Some)) {
@@ -156,17 +157,20 @@ private:
     }
 };
 
-// H T of a child, and T^T of that, for children that are vertices. A rotation of plane p < q has
-// x_p times column q of H less x_q times column p. With turn = p ^ q both are columns times what x
-// has at column ^ turn: a block is added up as it is, and so multiplied for each turn, by rows of
-// the result in the same way; differences are taken at the end.
+// The parts of a Galerkin product for children that are vertices.
+//
+// The column of H T for the rotation in plane p < q is x_p H_q - x_q H_p, with columns H_p, H_q of
+// H and the arm x. With turn = p ^ q both are columns j of H times x[j ^ turn]. So instead of H T
+// three whole blocks are summed up, H with column j times x[j ^ turn], turn = 1, 2, 3, beside H
+// itself; the rows of T^T H T are treated in the same way; and the differences are taken once at
+// the end, in store_block(). So everything is done by products of whole registers.
 template <int Dim, bool IsVectorized, typename Scalar>
 struct GalerkinOfVertices {
     using Numbers = BlockNumbers<Dim, IsVectorized, Scalar>;
     static constexpr int kDim = Dim;
     static constexpr int kModes = simulator::kModes<Dim>;
     static constexpr int kRows = Dim;
-    static constexpr int kTurns = 4;  // from 1 on, and as they are
+    static constexpr int kTurns = 4;  // turn 0 is H itself
 
     struct Product {
         Numbers at[kTurns];
@@ -223,7 +227,7 @@ struct GalerkinOfVertices {
     }
 
 private:
-    // @param entry  Of a row of H T.
+    // @param entry  entry(of, i) is entry i of this column of H T, given its Product.
     template <typename Entry>
     [[gnu::always_inline]] static void store_column(const Sum& sum,
                                                     const Entry& entry,
@@ -240,9 +244,9 @@ private:
     }
 };
 
-// The same for children that have modes of their own, in vectors of Dim rows: those of the axes,
-// then those of rotations, the last of which ends with the rows: some may be in two, and computed
-// twice.
+// The same for children that have modes of their own. Columns of kModes rows are handled as vectors
+// of Dim rows: the translations, then the rotations. The last vector ends with the last row, and so
+// overlaps the one before: a few rows are computed twice.
 template <int Dim, bool IsVectorized, typename Scalar>
 struct GalerkinOfModes {
     using Vertex = typename VertexOf<Dim, IsVectorized, Scalar>::Type;
@@ -258,8 +262,8 @@ struct GalerkinOfModes {
         Vertex at[kModes][kVectors];
     };
 
-    // T^T of that, but for the differences that rotations are. Of a column: the axes, those times
-    // each coordinate of the arm, and rotations times its ratio.
+    // T^T H T before the differences of rotations are taken. Of each column: the translations, the
+    // same times each coordinate of the arm, then the rotations times the ratio of the arm.
     struct Sum {
         Vertex at[kModes][Dim + kVectors];
     };
@@ -272,7 +276,7 @@ struct GalerkinOfModes {
 #pragma GCC unroll 3
         for (int v = 0; v < kVectors; ++v) {
             const Scalar* rows = columns + row_of(v);
-            Vertex axes[Dim];
+            Vertex axes[Dim];  // columns of the translations
             for (int c = 0; c < Dim; ++c) {
                 load(rows + c * kRows, axes[c]);
                 product.at[c][v] += axes[c];
@@ -320,8 +324,10 @@ struct GalerkinOfModes {
     }
 };
 
-// Products of a row with all children of an aggregate are added up first: neighbors in the row
-// mostly are of one aggregate, and their sum stays in registers.
+// Sums up one row of aggregates.
+//
+// For each child of the row its blocks are visited in order. Neighboring columns are mostly of one
+// aggregate, whose Product then stays in registers from one block to the next.
 template <typename Of, typename Scalar>
 class GalerkinSum {
     static_assert(sizeof(typename Of::Product) + sizeof(typename Of::Sum)
@@ -340,8 +346,8 @@ public:
         }
     }
 
-    // Many blocks of the row get nothing from H: all of A that they are made of is in the triangle
-    // that is not stored, and comes from the row of the other aggregate.
+    // Many blocks of the row get nothing from H, and are zero: all of A that they are made of is in
+    // the triangle that is not stored, and is added by the row of the other aggregate.
     void store(Scalar* blocks, Scalar* above) const {
         constexpr int kStored = Of::kModes * Of::kModes;
         for (std::size_t place = 0; place < of_->blocks; ++place, blocks += kStored) {
@@ -359,7 +365,7 @@ public:
 
 private:
     static constexpr int kEntries = Of::kRows * Of::kRows;
-    // What of a place there is: nothing, a sum, or that and a product with this row.
+    // What there is for a block of the row: nothing, a Sum, or that and a Product of this child.
     static constexpr std::uint8_t kNone = 0;
     static constexpr std::uint8_t kSum = 1;
     static constexpr std::uint8_t kProduct = 2;
@@ -372,7 +378,8 @@ private:
         return of_->places[of_->of_child[child]];
     }
 
-    // @param ahead  What will be read next, to be brought near.
+    // @param row    A child.
+    // @param ahead  Blocks that will be read soon, to be prefetched.
     void add_row(const BlockRows<Scalar>& H, std::uint32_t row, const Scalar* ahead) {
         const std::int64_t last = H.row_start[row + 1];
         std::int64_t k = H.row_start[row];

@@ -7,15 +7,18 @@
 #include <cstdint>
 #include <utility>
 
-// The numbers of all modes of an aggregate, and what blocks of modes do to them.
+// Vectors over the modes of an aggregate, and products of blocks with them.
 //
-// Blocks are stored by their diagonals: what x of a column is multiplied by lies as x does, what x
-// of the row is multiplied by as that does turned, once for all blocks of the row.
+// Blocks are stored by cyclic diagonals, see mode_entry(): a product A x multiplies each diagonal
+// by x as it lies in memory, one with the transpose, A^T x, by x rotated by the number of the
+// diagonal ("turned" here), which is done once for all blocks of a row. A vector of Size numbers is
+// kept as a head, all but the last two, and a tail, the last two twice over, since the tails of two
+// diagonals lie side by side.
 
 namespace pent::simulator {
 namespace {  // NOLINT(google-build-namespaces): see kernel_lanes.h
 
-// Where the entries of a block are stored, column by column.
+// mode_entry() as a table: places of the entries of a block, column-major.
 template <int Size>
 struct ModePlaces {
     std::uint8_t at[Size * Size];
@@ -34,7 +37,7 @@ constexpr ModePlaces<Size> mode_places() {
 template <int Size>
 constexpr ModePlaces<Size> kModePlaces = mode_places<Size>();
 
-// Numbers in as many registers as they take.
+// Count numbers in Count / Width registers.
 template <int Count, int Width, typename Scalar>
 struct InPieces {
     using Piece = typename Pack<Scalar, Width>::Vector;
@@ -74,7 +77,7 @@ struct InPieces {
     }
 };
 
-// Count numbers, in registers of at most Width.
+// Count numbers in registers of at most Width.
 template <int Count, int Width, typename Scalar>
 struct NumbersOf {
     using Type = InPieces<Count, Width, Scalar>;
@@ -88,8 +91,7 @@ struct NumbersOf<Count, Count, Scalar> {
     using Type = typename Pack<Scalar, Count>::Vector;
 };
 
-// Size numbers: a head, all but the last two, and these as often as a tail has them, for the tails
-// of two diagonals lie together.
+// How heads and tails are kept, and how numbers move between them.
 template <int Size, int Width, typename Scalar>
 struct ModeParts {
     static constexpr int kHead = Size - 2;
@@ -100,8 +102,8 @@ struct ModeParts {
     static void store_two(const Tail& tail, Scalar* to) {
         __builtin_memcpy(to, &tail, 2 * sizeof(Scalar));
     }
-    // Numbers First, First + 1 and so on (mod Size); the last two are numbers At and At + 1 of the
-    // tail.
+    // The head of a rotated vector: its numbers First, First + 1 and so on (mod Size), of which the
+    // last two are at At and At + 1 of the tail.
     template <int First, int At>
     static Head turned(const Head& head, const Tail& tail) {
         const Numbers<kHead> of_head(head);
@@ -121,6 +123,7 @@ struct ModeParts {
         const Numbers<kHead> of(head);
         return tail_of(of.at[Number]...);
     }
+    // The sums of the two halves of a tail, twice over.
     static Tail summed(const Tail& tail) {
         const Numbers<4> of(tail);
         const Scalar sums[2] = {of.at[0] + of.at[2], of.at[1] + of.at[3]};
@@ -145,7 +148,7 @@ private:
     }
 };
 
-// Those whose heads are in one register each.
+// The same where a head fits into one register: all moves are shuffles.
 template <int Size, typename Scalar>
 struct WholeModeParts {
     static constexpr int kHead = Size - 2;
@@ -198,11 +201,11 @@ private:
 template <int Size, typename Scalar>
 struct ModeParts<Size, Size - 2, Scalar> : WholeModeParts<Size, Scalar> {};
 
-// One number a mode.
+// A vector over the modes of one aggregate.
 template <typename Parts, typename Scalar>
 struct ModeVector {
     typename Parts::Head head;
-    typename Parts::Tail tail;  // the last two, twice
+    typename Parts::Tail tail;  // the last two numbers, twice over
 
     [[gnu::always_inline]] static ModeVector load(const Scalar* from) {
         ModeVector modes;
@@ -236,7 +239,8 @@ template <typename Numbers, typename Scalar>
     return numbers;
 }
 
-// The sum of products of blocks of a row, each with the x of its column.
+// Sums up A x over the blocks of a row, each with the x of its column. Sums are kept by diagonals,
+// and put in the order of rows once at the end, by add_to().
 template <int Size, typename Parts, typename Scalar>
 class RowSum {
 public:
@@ -284,7 +288,7 @@ private:
     Tail tails_[Size / 2] = {};
 };
 
-// The x of a row, for products with the transposes of its blocks.
+// The x of a row, rotated for every diagonal, for products with the transposes of its blocks.
 template <int Size, typename Parts, typename Scalar>
 class RowFactor {
 public:
@@ -332,7 +336,8 @@ private:
     Tail tails_[Size / 2];
 };
 
-// Number j of diagonal d of the transpose is number j - d of diagonal -d.
+// Adds the transpose of a block. Number j of its diagonal d is number j - d of diagonal -d of the
+// block (mod Size).
 template <int Size, typename Parts, typename Scalar>
 class TransposedBlock {
 public:
@@ -345,7 +350,7 @@ private:
     using Head = typename Parts::Head;
     using Tail = typename Parts::Tail;
 
-    // Numbers First and so on of diagonal -Diagonal.
+    // Numbers First, First + 1 and so on of diagonal -Diagonal.
     template <int Diagonal, int First>
     [[gnu::always_inline]] static Head turned(const Scalar* other) {
         constexpr int of = (Size - Diagonal) % Size;

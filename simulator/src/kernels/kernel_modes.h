@@ -6,11 +6,11 @@
 
 #include <cstddef>
 
-// Rigid modes of aggregates: RigidModes has the formulas, one child at a time.
+// Restriction from vertices to the rigid modes of an aggregate, and prolongation back: the formulas
+// are those of RigidModes.
 //
-// What a child at x (relative to the middle) turns with plane p < q is mode k. Sums over children
-// keep the products of x and the numbers of the child, and take the differences that are modes at
-// the end.
+// The moment in plane p < q is a sum over children of x_p r_q - x_q r_p. To work on whole vertices
+// the sums of all x_p r are kept, and the differences taken once at the end.
 
 namespace pent::simulator {
 namespace {  // NOLINT(google-build-namespaces): see kernel_lanes.h
@@ -19,7 +19,7 @@ template <int Dim, bool IsVectorized>
 void sum_forces(const AggregateChildren& children, const double* r, double* modes) {
     using Vertex = typename VertexOf<Dim, IsVectorized>::Type;
     Vertex sum = {};
-    Vertex turned[Dim] = {};  // x_p r
+    Vertex turned[Dim] = {};  // sums of x_p r
     for (std::size_t i = 0; i < children.count; ++i) {
         const std::size_t child = children.members[i];
         const auto force = loaded<Vertex>(r + child * Dim);
@@ -37,7 +37,7 @@ template <int Dim, bool IsVectorized>
 void add_motions(const AggregateChildren& children, const double* modes, double* x) {
     using Vertex = typename VertexOf<Dim, IsVectorized>::Type;
     const auto shift = loaded<Vertex>(modes);
-    Vertex turn[Dim] = {};  // what a unit of x_p is moved by
+    Vertex turn[Dim] = {};  // turn[p]: the motion at x = e_p, the skew matrix by columns
     for_each_plane<Dim>([&](int p, int q, int k) {
         turn[p][q] = modes[k];
         turn[q][p] = -modes[k];

@@ -2,14 +2,14 @@
 
 #include "kernels/kernel_smoothed.h"
 
-// Forces of quadratic simplices with mean dilatation, in lanes.
+// Energies and forces of quadratic simplices with mean dilatation, an element a lane.
 //
-// A quadratic simplex deforms at each of its points as a linear simplex does, see QuadraticRule. So
-// a point has the stress and the blocks of a linear simplex, and what the corners of that one get
-// goes on to the nodes.
+// At each of its points a quadratic simplex deforms as a linear simplex does, see QuadraticRule. So
+// a point has the stress, forces and Hessian blocks of a linear simplex, and those of its corners
+// are distributed to the nodes by the same factors as positions.
 //
-// Mean dilatation [nagtegaal1974], in part: with theta the measure of volume whose square an energy
-// has in it, see Dilatation, W is
+// To avoid volumetric locking a part of lambda acts on the mean dilatation only [nagtegaal1974]:
+// with theta the measure of volume that is squared in an energy, see Dilatation, W is
 //     V (sum over points q of share_q Psi(F_q; mu, lambda) + mean_lambda / 2 mean^2),
 //     mean = sum over q of share_q theta(F_q).
 
@@ -19,7 +19,7 @@
 namespace pent::simulator {
 namespace {  // NOLINT(google-build-namespaces): see kernel_lanes.h
 
-// Nodes of every element of a group seen from its first: [node][axis][lane].
+// Positions of the nodes relative to the first node of their element: [node][axis][lane].
 template <int Dim>
 struct GroupNodes {
     alignas(64) double at[kQuadraticNodes<Dim>][Dim][kGroup];
@@ -71,7 +71,7 @@ struct Dilatation {
     Tensor<Real, Dim> slope;  // by F
 };
 
-// The measure of volume of an energy: J - 1, tr E, tr e. Of arap, which has none, never asked.
+// The measure of volume of an energy: J - 1, tr E or tr e. Not called for arap, which has none.
 template <typename Real, int Dim>
 Dilatation<Real, Dim> dilatation_of(const Tensor<Real, Dim>& F, Model model) {
     using Number = typename Lanes<Real>::Number;
@@ -89,7 +89,7 @@ Dilatation<Real, Dim> dilatation_of(const Tensor<Real, Dim>& F, Model model) {
     return trace;
 }
 
-// Some elements at all of their points.
+// A pack of elements at all of their points.
 template <typename Real, int Dim>
 struct PointStates {
     Tensor<Real, Dim> F[kQuadraticPoints<Dim>];
@@ -116,7 +116,7 @@ void deform_points(const Group<Dim>& group,
     }
 }
 
-// What nodes get: [node].
+// A vector for each node, as a force.
 template <typename Real, int Dim>
 struct NodeVectors {
     Vector<Real, Dim> at[kQuadraticNodes<Dim>];
@@ -129,7 +129,7 @@ struct NodeVectors {
         }
     }
 
-    // Adds P times the gradient of every node at a point.
+    // Adds P times the rest gradient of every node at a point.
     void add(int point, const Tensor<Real, Dim>& P, const Tensor<Real, Dim>& rest) {
         for (int i = 0; i < Dim; ++i) {
             Real corner[Dim + 1];
@@ -155,7 +155,7 @@ struct NodeVectors {
     }
 };
 
-// Energy and forces of some elements; the worst of the points counts as det and norm.
+// Energy and forces of a pack of elements; det and norm are the least of all points.
 template <typename Real, int Dim>
 void pull_nodes(const PointStates<Real, Dim>& states,
                 const ElementRun& run,
@@ -203,7 +203,7 @@ RunEnergy add_quadratic_gradient(const ElementRun& run, const double* positions,
         for (int q = 0; q < kQuadraticPoints<Dim>; ++q) {
             edges_at(nodes, q, edges[q]);
         }
-        // Positions have been used: the forces take their place.
+        // Positions are not needed any more: the forces take their place.
         for (int lane = 0; lane < kGroup; lane += Lanes<Real>::kCount) {
             const Real volume = Lanes<Real>::load(group.volume + lane);
             PointStates<Real, Dim> states;

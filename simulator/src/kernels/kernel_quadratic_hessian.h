@@ -2,7 +2,9 @@
 
 #include "kernels/kernel_quadratic.h"
 
-// Hessians of quadratic simplices with mean dilatation, in lanes.
+// Hessians of quadratic simplices with mean dilatation, an element a lane: at each point the blocks
+// of a linear simplex, then sums over points and corners into blocks of pairs of nodes, see
+// kernel_quadratic.h. The mean dilatation adds a matrix of rank one.
 
 // NOLINTBEGIN(cppcoreguidelines-pro-type-member-init): see kernel_elements.h
 
@@ -15,15 +17,16 @@ struct CornerBlocks {
     Tensor<Real, Dim> at[Dim + 1];
 };
 
-// Hessians of some elements.
+// The Hessians of a pack of elements, before the blocks of points are summed up into those of
+// nodes.
 template <typename Real, int Dim>
 struct QuadraticHessian {
     BlockPack<Real, Dim> points[kQuadraticPoints<Dim>];  // of the linear simplex at each
-    NodeVectors<Real, Dim> swelling;  // slope of the mean dilatation by each node
-    Real mean_stiffness;              // on the square of that
+    NodeVectors<Real, Dim> swelling;  // gradient of the mean dilatation by each node
+    Real mean_stiffness;              // factor of swelling swelling^T
     bool has_mean;
 
-    // Block (a, b) at a point.
+    // Entry (i, j) of block (a, b) at a point.
     [[nodiscard]] Real entry(int point, int a, int b, int i, int j) const {
         const auto& blocks = points[point].at;
         const auto* lanes = a <= b ? blocks[pair_index<Dim>(a, b)][block_entry<Dim>(i, j)]
@@ -38,6 +41,7 @@ struct QuadraticHessian {
     }
 };
 
+// Returns how many elements the filter has changed.
 template <typename Real, int Dim>
 int differentiate_points(const PointStates<Real, Dim>& states,
                          const ElementRun& run,
@@ -71,8 +75,8 @@ int differentiate_points(const PointStates<Real, Dim>& states,
     return count_marked(is_filtered, lanes);
 }
 
-// The rows of one node, up to the corners of the linear simplices: [point][corner], and their sum
-// over points.
+// The rows of one node, with corners of the linear simplices as columns: [point][corner], and their
+// sum over points.
 template <typename Real, int Dim>
 struct NodeRows {
     CornerBlocks<Real, Dim> at[kQuadraticPoints<Dim>];
@@ -104,8 +108,9 @@ void rows_of_node(const QuadraticHessian<Real, Dim>& hessian,
     }
 }
 
-// The block of the node of `rows` with the node between c and d. The share of a node at a point is
-// one number but for the point near its corner, so that sums over points stand for most of them.
+// The block of the node of `rows` with the node between c and d. QuadraticRule::share is the same
+// at all points but the one near the corner, so that the sum over points, times that, and a
+// correction at one point will do.
 template <typename Real, int Dim>
 Tensor<Real, Dim> block_of_nodes(const NodeRows<Real, Dim>& rows, int c, int d) {
     using Vectors = NodeVectors<Real, Dim>;
@@ -127,7 +132,7 @@ Tensor<Real, Dim> block_of_nodes(const NodeRows<Real, Dim>& rows, int c, int d) 
     return block;
 }
 
-// Adds a block of one element to the matrix, which has it as it is or turned over.
+// Adds a block of one element to the matrix, which stores it or its transpose.
 template <int Dim, int Width, typename Scalar>
 void scatter_block(const Scalar (&entries)[Dim * Dim], std::int32_t place, Scalar* values) {
     if (place >= 0) {
@@ -143,7 +148,8 @@ void scatter_block(const Scalar (&entries)[Dim * Dim], std::int32_t place, Scala
     add_to<Dim * Dim, Width>(turned, values + std::int64_t{kTurnedBlock - place} * Dim * Dim);
 }
 
-// Where one of two nodes is held: its displacement, which is known, goes to the other's right side.
+// Where one of two nodes is held: its known displacement, times the block, goes to the right side
+// of the other.
 template <int Dim, typename Scalar>
 void scatter_held_block(const Scalar (&entries)[Dim * Dim],
                         const Group<Dim>& group,
@@ -169,7 +175,8 @@ void scatter_held_block(const Scalar (&entries)[Dim * Dim],
     }
 }
 
-// Adds all blocks of some elements, summed over their points, node by node.
+// Sums the blocks of a pack of elements over their points, node by node, and adds them to the
+// matrix.
 template <int Dim, typename Real, typename Scalar>
 void scatter_quadratic(const QuadraticHessian<Real, Dim>& hessian,
                        const Group<Dim>& group,

@@ -3,7 +3,9 @@
 #include "kernels/kernel_vertices.h"
 #include "linear/block_kernels.h"
 
-// Products with symmetric block rows.
+// Products with symmetric matrices of which the upper triangle is stored: each block is read once
+// and used twice, for its own row and, transposed, for the row of its column. Rows run in parallel
+// only where they touch no common dof, see BlockPattern::coloring.
 
 namespace pent::simulator {
 namespace {  // NOLINT(google-build-namespaces): see kernel_lanes.h
@@ -45,8 +47,8 @@ void multiply_rows(const BlockRows<Scalar>& rows, const double* x, double* y) {
     }
 }
 
-// Brings near the blocks that are next but 63, a page ahead of one: processors look ahead by
-// themselves, but not beyond the end of a page. Inlined, see ReadAhead.
+// Prefetches what lies 64 blocks ahead, in the next page: hardware prefetchers stop at the end of a
+// page. Inlined, see ReadAhead.
 template <typename Scalar>
 [[gnu::always_inline]] inline void prefetch_ahead(const Scalar* block,
                                                   const std::uint32_t* column) {
@@ -58,7 +60,9 @@ template <typename Scalar>
     __builtin_prefetch(column + 4 * kAhead);
 }
 
-// The same for 4 x 4 blocks, by their diagonals.
+// The same for 4 x 4 blocks, stored by XOR diagonals (see block_order.h): products of the block
+// with x_column are summed up as diagonals over the whole row and put in order once at its end;
+// those of its transpose take permutations of x_row, made once for the row.
 template <typename Scalar>
 void multiply_rows_4(const BlockRows<Scalar>& rows, const double* x, double* y) {
     const std::int64_t* row_start = rows.row_start;

@@ -3,10 +3,12 @@
 #include "kernels/kernel_mode_blocks.h"
 #include "linear/block_kernels.h"
 
-// Sweeps and products with symmetric matrices over modes, see ModeRows.
+// Gauss-Seidel sweeps and products with symmetric matrices over modes, of which the lower triangle
+// is stored: see ModeRows for how each block is read only once, and ModeKernels for what is
+// computed.
 
-// Where registers have a head, what is done to one stays in them. Where none has, code that goes
-// through memory is not made longer.
+// With AVX a head of floats (see kernel_mode_blocks.h) fits into a register, and inlining keeps all
+// in registers. Without, it goes through memory anyway, and inlining only makes the code longer.
 #if defined(__AVX__)
 #define PENT_SWEEP_INLINE [[gnu::always_inline]]
 #else
@@ -75,7 +77,7 @@ struct Sweeps {
     static void add_transposed(const Scalar* other, Scalar* block) {
         if constexpr (kWidth == Size - 2) {
             TransposedBlock<Size, Parts, Scalar>::add(other, block);
-        } else {  // one by one, in less code
+        } else {  // a plain loop: less code
             for (int j = 0; j < Size; ++j) {
                 for (int i = 0; i < Size; ++i) {
                     block[kModePlaces<Size>.at[Size * j + i]] +=
@@ -92,6 +94,7 @@ private:
     using Parts = ModeParts<Size, kWidth, Scalar>;
     using Modes = ModeVector<Parts, Scalar>;
 
+    // What damping leaves of the residual of a row: t / (1 + t) of it.
     static Scalar kept_of(const ModeDiagonal<Scalar>& diagonal, std::int64_t row) {
         return diagonal.kept != nullptr ? diagonal.kept[row] : 0;
     }
@@ -102,6 +105,7 @@ private:
         return difference;
     }
 
+    // product += A x for stored blocks [first, last) of a row.
     PENT_SWEEP_INLINE static void add_blocks(
         const Rows& rows, std::int64_t first, std::int64_t last, const Scalar* x, Modes& product) {
         if (first == last) {
@@ -115,7 +119,7 @@ private:
         sum.add_to(product);
     }
 
-    // A^T x of some blocks, one after the other.
+    // A^T x for `count` consecutive blocks.
     PENT_SWEEP_INLINE static void multiply_transposed(const Scalar* blocks,
                                                       std::int64_t count,
                                                       const Modes& x,
@@ -126,12 +130,14 @@ private:
         }
     }
 
+    // Stores the shares of a row: products of its transposed blocks with x.
     [[gnu::always_inline]] static void share(const Rows& rows, std::int64_t row, const Modes& x) {
         const std::int64_t first = rows.row_start[row];
         multiply_transposed(rows.values + kEntries * first, rows.diagonal[row] - first, x,
                             rows.shares + Size * first);
     }
 
+    // product += L^T x of a row, from the shares of the rows behind it.
     [[gnu::always_inline]] static void add_shares(const Rows& rows,
                                                   std::int64_t row,
                                                   Modes& product) {

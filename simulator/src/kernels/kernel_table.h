@@ -43,9 +43,9 @@ constexpr BlockKernels block_kernels() {
             .eliminate_front = &eliminate_front<DoublePack>};
 }
 
-// A simplex is the case of Dim + 1 corners of the kernels for any number of them, which give the
-// same numbers to rounding. It has its own all the same: with its corners known to the compiler
-// gradients take three quarters of the time, Hessians six sevenths (AVX2). What both are made of is
+// The kernels for any number of corners would do for simplices, too, and give the same numbers to
+// rounding. Simplices have kernels of their own for speed: with Dim + 1 corners known at compile
+// time gradients take three quarters of the time, Hessians six sevenths (AVX2). What both share is
 // in kernel_elements.h and kernel_hessian.h.
 
 template <int Dim, typename Real>

@@ -2,12 +2,14 @@
 
 #include <pent/simd.h>
 
-// Small arrays from one lane an element to one element after the other, and on into memory.
+// Transposition of small arrays between the layout of lanes (one element a lane) and that of memory
+// (one element after another).
 
 namespace pent::simulator {
 namespace {  // NOLINT(google-build-namespaces): see kernel_lanes.h
 
-/// to[column][row] = from[row][column]: in squares as wide as the shorter side where they fill it.
+/// to[column][row] = from[row][column]: by square tiles in registers where tiles as wide as the
+/// shorter side fill the array.
 template <int Rows, int Columns, typename Scalar>
 void transpose(const Scalar (&from)[Rows][Columns], Scalar (&to)[Columns][Rows]) {
     constexpr int kWidth = Rows < Columns ? Rows : Columns;

@@ -8,18 +8,18 @@
 
 #include <cstdint>
 
-// The Dim numbers of a vertex, and what blocks of Dim x Dim do to them.
+// The Dim numbers of a vertex, and products of Dim x Dim blocks with them.
 
 namespace pent::simulator {
 namespace {  // NOLINT(google-build-namespaces): see kernel_lanes.h
 
-// Written with the vector types of the compiler, for packs have no shuffles; a machine without
-// vectors of four gets pairs.
+// The compiler's vector types, as packs have no shuffles. Where registers hold less than four
+// numbers the compiler splits them.
 template <typename Number>
 using FourOf = typename Pack<Number, 4>::Vector;
 using Four = FourOf<double>;
 
-// Where there are no vectors, or not of three.
+// A vertex number by number: in the scalar kernels, and in 3D, where there is no vector of three.
 template <int Dim, typename Number = double>
 struct OneByOne {
     Number at[Dim];
@@ -93,8 +93,9 @@ void store(const Vertex& vertex, double* to) {
     __builtin_memcpy(to, &vertex, sizeof vertex);
 }
 
-// As many vertices as are turned into lanes, or out of them, at once: number by number where no
-// register has four, which would be taken apart for it and take twice as long.
+// As many vertices as are transposed to lanes, or back, at once: four where a register holds four
+// numbers. Where none does, vectors of four would be split for it, which takes twice as long as
+// going number by number.
 template <int Dim, bool IsVectorized>
 struct VertexTile {
     static constexpr bool kIsWhole = IsVectorized && Dim == 4 && kRegisterBytes >= sizeof(Four);
@@ -103,7 +104,7 @@ struct VertexTile {
 
     Vertex at[kCount];
 
-    // From lanes: from[axis][lane], the first lane being a multiple of kCount.
+    // From lanes: from[axis][lane], where `lane` is a multiple of kCount.
     template <int Lanes>
     void load(const double (&from)[Dim][Lanes], int lane) {
         if constexpr (kCount > 1) {
@@ -118,7 +119,7 @@ struct VertexTile {
         }
     }
 
-    // To lanes; the vertices are no more.
+    // To lanes; overwrites the vertices in between.
     template <int Lanes>
     void store(double (&to)[Dim][Lanes], int lane) {
         if constexpr (kCount > 1) {
@@ -134,7 +135,7 @@ struct VertexTile {
     }
 };
 
-// What blocks are multiplied by: part k has number j ^ k at j, see block_order.h.
+// The factors of transposed blocks: part k has number j ^ k of a vector at j, see block_order.h.
 template <typename Vector>
 struct Permuted {
     Vector at[4];
@@ -145,7 +146,7 @@ Permuted<Vector> permuted(const Vector& x) {
              __builtin_shufflevector(x, x, 2, 3, 0, 1), __builtin_shufflevector(x, x, 3, 2, 1, 0)}};
 }
 
-// The diagonals of a block.
+// The XOR diagonals of a block, see block_order.h.
 struct Diagonals {
     Four at[4];
 };
@@ -154,8 +155,7 @@ Diagonals diagonals_of(const Scalar* block) {
     return {{load_four(block), load_four(block + 4), load_four(block + 8), load_four(block + 12)}};
 }
 
-// The sum of what diagonals give times their columns: at j of part k there is what belongs to row
-// j ^ k.
+// Sums up products by diagonals into rows: number j of part k belongs to row j ^ k.
 inline Four rows_of(const Diagonals& products) {
     const Four& second = products.at[2];
     const Four& third = products.at[3];

@@ -18,8 +18,8 @@ namespace pent::simulator {
 /// Elements are stored in groups of this many, one element a lane, whatever the vector width.
 inline constexpr int kGroup = 16;
 
-/// Blocks of the upper triangle of an element matrix: pairs a <= b of its corners. In kernels at
-/// compile time alone, see above.
+/// Blocks of the upper triangle of an element matrix: pairs a <= b of its corners. As any function
+/// outside of unnamed namespaces, kernels may use it at compile time only, see above.
 constexpr int pairs_of(int corners) {
     return corners * (corners + 1) / 2;
 }
@@ -31,25 +31,25 @@ inline constexpr int kPairs = pairs_of(Dim + 1);
 /// In ElementRun::blocks: no block, as one of the corners is held.
 inline constexpr std::int32_t kNoBlock = -1;
 
-/// And where the matrix has the transpose of a block: kTurnedBlock - index.
+/// Where the matrix stores the transpose of a block instead: kTurnedBlock - index.
 inline constexpr std::int32_t kTurnedBlock = -2;
 
 /// A run of element groups of one kind, one material and one number of corners. Arrays are
 /// [group][row][lane].
 ///
-/// An element that is not quadratic deforms by F = sum over its corners of x_a g_a^T, with rest
-/// gradients g_a that add up to zero: a simplex has Dim + 1 of them, a smoothing domain may have
-/// more. The corners are in increasing order of their dof, held ones last; an element with
-/// fewer than the others repeats its first, with zeros for gradients.
+/// An element that is not quadratic has the deformation gradient F = sum over corners a of
+/// x_a g_a^T, with rest gradients g_a that add up to zero: a simplex has Dim + 1 corners, a
+/// smoothing domain may have more. They are in increasing order of their dof, held ones last; an
+/// element with fewer than the others repeats its first, with zeros for gradients.
 ///
 /// A quadratic simplex has kQuadraticNodes corners, its nodes in their own order; QuadraticRule
-/// says how it deforms. Lanes behind the last element of a run repeat a real element with volume 0
-/// and are not scattered.
+/// says how it deforms. Lanes behind the last element of a run repeat a real element with volume 0,
+/// so that their numbers are finite, and are not scattered.
 struct ElementRun {
     ElementKind kind = ElementKind::Linear;
-    Material material;       ///< Of a quadratic element with that lambda that acts at every point.
-    double mean_lambda = 0;  ///< Pa, >= 0: what of lambda acts on the mean over an element.
-    double collapse_norm = 0;  ///< An element with |F|^2 below has collapsed; 0: none can.
+    Material material;         ///< Of quadratic elements with the lambda that acts at every point.
+    double mean_lambda = 0;    ///< Pa, >= 0: the part of lambda that acts on mean dilatation.
+    double collapse_norm = 0;  ///< An element with |F|^2 below this has collapsed; 0: none can.
     int elements = 0;          ///< Elements in the run; groups = ceil(elements / kGroup).
     int corners = 0;           ///< Of every element, at least Dim + 1.
     const double* rest =
@@ -74,12 +74,12 @@ struct RunEnergy {
 /// Where Hessian blocks go.
 template <typename Scalar>
 struct HessianTarget {
-    Scalar* values = nullptr;  ///< Dim x Dim blocks, column-major; added to.
+    Scalar* values = nullptr;  ///< Dim x Dim blocks in the order of block_order.h; added to.
     double scale = 1;          ///< Factor on every block.
     Filter filter = Filter::Clamp;
     /// Dim x vertices: how far held vertices move, m.
     const double* prescribed_displacement = nullptr;
-    /// Dim x dofs: less block * prescribed_displacement for held columns.
+    /// Dim x dofs: block * prescribed_displacement is subtracted for held columns.
     double* right = nullptr;
 };
 
@@ -100,12 +100,13 @@ struct Kernels {
     BlockKernels blocks;
 };
 
-/// Instruction sets there are kernels for. Scalar is the plain one that others are tested against.
+/// Instruction sets that there are kernels for. Scalar is without vectors: the others are tested
+/// against it.
 enum class Isa { Scalar, Baseline, Avx2, Avx512 };
 
 [[nodiscard]] std::string_view isa_name(Isa isa);
 
-/// Whether this build has kernels for it and this machine runs them.
+/// Whether this build has kernels for it and this machine can run them.
 [[nodiscard]] bool is_supported(Isa isa);
 
 /// The widest supported one.

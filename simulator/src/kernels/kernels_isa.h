@@ -4,7 +4,7 @@
 
 namespace pent::simulator {
 
-/// The tables, one file each, compiled for its instruction set; see kernels.cpp for the choice.
+/// The tables of kernels: one file for each instruction set, compiled for it; kernels.cpp chooses.
 const Kernels<3>& kernels_3_scalar();
 const Kernels<4>& kernels_4_scalar();
 const Kernels<3>& kernels_3_baseline();

@@ -2,14 +2,15 @@
 
 namespace pent::simulator {
 
-// Functions at compile time alone, see kernels.h: what is left of them is data.
+// Functions for compile time only (see kernels.h): at run time there are only their tables.
 
 /// Nodes of a quadratic simplex: its corners, then the middles of its edges (0,1) (0,2) .. (1,2) ..
 template <int Dim>
 inline constexpr int kQuadraticNodes = (Dim + 1) * (Dim + 2) / 2;
 
-/// Points where a quadratic simplex is evaluated: one near each corner, of equal weight, exact for
-/// polynomials of degree 2 [hammer1956]. With fewer there are motions that cost no energy.
+/// Quadrature points of a quadratic simplex: one near each corner, of equal weight, exact for
+/// polynomials of degree 2 [hammer1956]. With fewer there would be motions without energy
+/// (hourglass modes).
 template <int Dim>
 inline constexpr int kQuadraticPoints = Dim + 1;
 
@@ -32,22 +33,22 @@ struct QuadraticPoint<4> {
 template <int Dim>
 inline constexpr int kQuadraticRestRows = kQuadraticPoints<Dim>*(Dim* Dim + 1) + 1;
 
-/// A quadratic simplex as the linear simplices that it deforms as at its points.
+/// At each of its points a quadratic simplex deforms as some linear simplex does.
 ///
 /// With barycentric coordinates l,
 ///
 ///     x(l) = sum over corners of l_a (2 l_a - 1) x_a + sum over edges of 4 l_a l_b x_ab
 ///     dx / dl_a = y_a = (4 l_a - 1) x_a + 4 sum over b != a of l_b x_ab,
 ///
-/// so that F at l is that of the linear simplex with the corners y_a, of which the rest positions
-/// are made from those of the nodes in the same way.
+/// so that F at l is that of the linear simplex with corners y_a, whose rest positions follow from
+/// those of the nodes in the same way.
 template <int Dim>
 struct QuadraticRule {
-    /// The node at corner a if a == b, else in the middle of the edge between.
+    /// The node at corner a if a == b, else that in the middle of the edge between a and b.
     int node[Dim + 1][Dim + 1];
     int first[kQuadraticNodes<Dim>];   ///< The corners, or corner, that a node is between.
     int second[kQuadraticNodes<Dim>];  ///< At least `first`.
-    /// How much of the node between a and b is in y_a: [point][a][b].
+    /// The factor of the node between a and b in y_a: [point][a][b].
     double share[kQuadraticPoints<Dim>][Dim + 1][Dim + 1];
 };
 
