@@ -2,7 +2,7 @@
 
 #include "kernels/kernel_elements.h"
 
-// Hessians of element groups, in lanes.
+// Hessians of linear simplices, an element a lane.
 
 // NOLINTBEGIN(cppcoreguidelines-pro-type-member-init): see kernel_elements.h
 
@@ -25,10 +25,12 @@ constexpr int pair_index(int a, int b) {
     return a * (Dim + 1) - a * (a - 1) / 2 + b - a;
 }
 
-// With beta_a = V^T b_a (b_a: rest gradient of corner a), block (a, b) is U K U^T, where
+// The filtered Hessian of an element in the frame of its singular vectors, see Spectrum. It is
+// never formed as a Dim^2 x Dim^2 matrix: with beta_a = V^T b_a, b_a being the rest gradient of
+// corner a, block (a, b) is U K U^T, where
 //   K_ik = stretch_ik beta_ai beta_bk + swap_ik beta_ak beta_bi                 (i != k)
 //   K_ii = stretch_ii beta_ai beta_bi + sum over j != i of keep_ij beta_aj beta_bj
-// and keep, swap = (twist + flip) / 2, (flip - twist) / 2.
+// and keep = (flip + twist) / 2, swap = (flip - twist) / 2.
 template <typename Real, int Dim>
 struct RotatedHessian {
     Tensor<Real, Dim> U;
@@ -75,8 +77,8 @@ RotatedHessian<Real, Dim> rotated_hessian(const Tensor<Real, Dim>& F,
     return hessian;
 }
 
-// Block (a, b), given to take(i, j, entry) row by row: that way K stays in registers, and nothing is
-// stored but what is asked for.
+// Computes block (a, b) row by row and passes each entry to take(i, j, entry): so K stays in
+// registers, and only what is needed is stored.
 //
 // @param IsSymmetric  The block of a corner with itself: take() gets its upper triangle only.
 template <bool IsSymmetric, typename Real, int Dim, typename Take>
@@ -116,7 +118,8 @@ template <bool IsSymmetric, typename Real, int Dim, typename Take>
     }
 }
 
-// Entries of a block as the matrix has them; symmetric ones to the bit, from the upper triangle.
+// Stores an entry of a block in the order of block_order.h; symmetric blocks are given their upper
+// triangle, and are symmetric to the bit.
 template <bool IsSymmetric, int Dim, typename Real>
 [[gnu::always_inline]] inline void store_entry(const Real& entry,
                                                int i,
@@ -191,9 +194,9 @@ void hessian_blocks(const RotatedHessian<Real, Dim>& hessian,
     }
 }
 
-// Element after element, all blocks of one before the next: neighbors in a pack share blocks, and
-// adding to the same one again at once would wait for the addition before. With each, one of the
-// group after this is brought near, a matrix being too large for the caches close by.
+// Adds the blocks of a pack to the matrix, element by element: consecutive elements share blocks,
+// and adding to the same one twice in a row would wait for the first addition. With each a block of
+// the next group is prefetched, as a matrix is too large for the caches.
 template <int Dim, typename Real, typename Scalar>
 void scatter_blocks(const BlockPack<Real, Dim>& pack,
                     const Group<Dim>& group,
@@ -220,7 +223,8 @@ void scatter_blocks(const BlockPack<Real, Dim>& pack,
     }
 }
 
-// Moves the columns of held corners, whose displacement is known, to the right side.
+// Moves the columns of held corners, whose displacement is known, to the right side. They are last
+// among the corners, so that blocks (a, b), a < b, are all there are.
 template <int Dim, typename Real, typename Scalar>
 void scatter_held(const BlockPack<Real, Dim>& pack,
                   const Group<Dim>& group,
@@ -252,7 +256,7 @@ void scatter_held(const BlockPack<Real, Dim>& pack,
     }
 }
 
-// How many of the first lanes are marked by 1.
+// How many of the first `lanes` lanes are marked by 1.
 template <typename Real>
 int count_marked(const Real& marks, int lanes) {
     using Number = typename Lanes<Real>::Number;

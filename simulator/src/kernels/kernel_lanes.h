@@ -3,7 +3,8 @@
 #include <pent/register_bytes.h>
 #include <pent/simd.h>
 
-// What the kernels need of a number, for one number and for a pack of numbers (one a lane).
+// The operations that kernels need, for a pack of numbers (one a lane) and for a single number, so
+// that the same templates make the vector kernels and the scalar ones.
 //
 // Everything the kernels are made of is in an unnamed namespace: each instruction set compiles its
 // own copy, and the linker must never merge them.
@@ -64,7 +65,7 @@ struct Lanes<float> : OneLane<float> {};
 template <>
 struct Lanes<double> : OneLane<double> {};
 
-// The pack that fills a register.
+// The pack that fills the widest register of this instruction set.
 template <typename Scalar>
 using Widest = Pack<Scalar, kRegisterBytes / static_cast<int>(sizeof(Scalar))>;
 

@@ -11,7 +11,7 @@
 namespace pent::simulator {
 namespace {  // NOLINT(google-build-namespaces): see kernel_lanes.h
 
-/// Material numbers as the formulas want them.
+/// Material parameters in the form that formulas take.
 struct Moduli {
     Model model;
     double mu;
@@ -210,12 +210,12 @@ Stress<Real, Dim> stress_of(const Tensor<Real, Dim>& F, const Moduli& moduli) {
     return linear_stress(F, moduli);
 }
 
-/// Hessian of an isotropic energy in the frame of the singular vectors. It couples the diagonal
-/// entries with one another (stretch), and each pair (i, j), (j, i) with itself: flip is the
-/// eigenvalue of E_ij + E_ji, twist that of E_ij - E_ji.
+/// Hessian of an isotropic energy in the frame of the singular vectors, see HessianFrame. It
+/// couples the diagonal entries with one another (stretch), and each pair (i, j), (j, i) with
+/// itself: flip is the eigenvalue of E_ij + E_ji, twist that of E_ij - E_ji.
 ///
-/// What has a mean dilatation adds `mean_pressure` times the second derivative of its measure of
-/// volume; 0 for all else.
+/// With mean dilatation the pressure of the mean adds `mean_pressure` times the second derivative
+/// of the measure of volume, see kernel_quadratic.h; it is 0 for all other elements.
 template <typename Real, int Dim>
 struct Spectrum {
     Tensor<Real, Dim> stretch;
@@ -308,8 +308,8 @@ Spectrum<Real, Dim> arap_spectrum(const Real (&sigma)[Dim], const Moduli& moduli
             spectrum.stretch[i][j] = zero;
             spectrum.stretch[j][i] = zero;
             spectrum.flip[i][j] = stiff;
-            // The twist eigenvalue has no lower bound as sigma_i + sigma_j goes to 0, where the
-            // rotation is not unique; within rounding of it the mode counts as free.
+            // The twist eigenvalue tends to minus infinity as sigma_i + sigma_j goes to 0, where
+            // the rotation is not unique; within rounding of that the mode counts as free.
             const Real sum = sigma[i] + sigma[j];
             const auto is_defined = sum > Real(Precise<Number>::kRankDeficient);
             const Real safe = L::select(is_defined, sum, Real(Number(2)));

@@ -2,7 +2,8 @@
 
 #include "kernels/kernel_hessian.h"
 
-// Forces and Hessians of elements with any number of corners, in lanes: the domains of smoothing.h.
+// Forces and Hessians of elements with any number of corners, an element a lane: the domains of
+// smoothing.h. As they have many corners, a group goes through them one by one.
 
 // Tensors of lanes are filled entry by entry right after they are declared; zeroing them first
 // would cost as much as using them. NOLINTBEGIN(cppcoreguidelines-pro-type-member-init)
@@ -18,7 +19,7 @@ struct Vector {
     Real at[Dim];
 };
 
-// The rest gradient of a corner but the first.
+// The rest gradient of a corner other than the first.
 template <typename Real, int Dim>
 Vector<Real, Dim> load_gradient(const Group<Dim>& group, int corner, int lane) {
     const double* rows = group.rest + std::int64_t{corner - 1} * Dim * kGroup + lane;
@@ -136,8 +137,8 @@ RunEnergy add_smoothed_gradient(const ElementRun& run, const double* positions, 
     return total;
 }
 
-// Second derivatives of the energy by F: at[l][m][i][j] = d^2 / dF_il dF_jm for l <= m; the others
-// are their transposes.
+// Second derivatives of the energy by F: at[l][m][i][j] = d^2 / dF_il dF_jm for l <= m; those for
+// l > m are their transposes.
 template <typename Real, int Dim>
 struct EnergyHessian {
     Tensor<Real, Dim> at[Dim][Dim];
@@ -161,8 +162,8 @@ EnergyHessian<Real, Dim> energy_hessian(const RotatedHessian<Real, Dim>& hessian
     return result;
 }
 
-// The rows of an element's matrix at one corner, up to the gradient of the other: block (a, b) is
-// sum over m of at[m] g_bm.
+// The Hessian contracted with the gradient of corner a, so that block (a, b) is the sum over m of
+// at[m] g_bm.
 template <typename Real, int Dim>
 struct CornerHessian {
     Tensor<Real, Dim> at[Dim];
@@ -188,7 +189,8 @@ CornerHessian<Real, Dim> corner_hessian(const EnergyHessian<Real, Dim>& hessian,
     return result;
 }
 
-// Blocks of a corner `row` with corners `first`, `first` + 1 .., in lanes and element by element.
+// Blocks of a corner `row` with corners `first`, `first` + 1 ..: `packed` has one in lanes,
+// `entries` all of them element by element.
 template <typename Real, typename Scalar, int Dim>
 struct BlockTile {
     static constexpr int kMaxBlocks = 8;
@@ -199,7 +201,7 @@ struct BlockTile {
     alignas(64) Scalar entries[kMaxBlocks][Lanes<Real>::kCount][Dim * Dim];
 };
 
-// Brings the blocks of one corner near while those of the one before are computed.
+// Prefetches the matrix blocks of one corner while those of the one before are computed.
 template <int Dim, typename Scalar>
 [[gnu::always_inline]] inline void prefetch_row(
     const Group<Dim>& group, int a, int lane, int lanes, const Scalar* values) {
@@ -212,8 +214,8 @@ template <int Dim, typename Scalar>
     }
 }
 
-// Adds the blocks of some elements to the matrix; those with held corners, whose displacement is
-// known, to the right side.
+// Adds the blocks of a pack of elements to the matrix, and those of held corners, times their known
+// displacement, to the right side.
 template <int Dim, typename Real, typename Scalar>
 void scatter_tile(const BlockTile<Real, Scalar, Dim>& tile,
                   const Group<Dim>& group,
@@ -252,7 +254,7 @@ void scatter_tile(const BlockTile<Real, Scalar, Dim>& tile,
     }
 }
 
-// The first corner's gradient: those of all corners add up to zero.
+// The rest gradient of the first corner, as those of all corners add up to zero.
 template <typename Real, int Dim>
 Vector<Real, Dim> first_gradient(const Group<Dim>& group, int lane) {
     using Number = typename Lanes<Real>::Number;

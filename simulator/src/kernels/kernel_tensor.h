@@ -4,7 +4,7 @@
 
 #include <pent/simulator/solver_options.h>
 
-// Small dense algebra in lanes: cofactor matrix, singular values, filtered symmetric matrices.
+// Small dense algebra, a matrix a lane: cofactors, singular values, filtered symmetric matrices.
 
 // Tensors of lanes are filled entry by entry right after they are declared; zeroing them first
 // would cost as much as using them. NOLINTBEGIN(cppcoreguidelines-pro-type-member-init)
@@ -129,7 +129,7 @@ template <typename Real, int Dim>
 struct SignedSvd {
     Tensor<Real, Dim> U;
     Real sigma[Dim];
-    Tensor<Real, Dim> turned_rest;  // the matrix `rest` passed in, times V
+    Tensor<Real, Dim> turned_rest;  // `rest` V, with the matrix `rest` passed in
 };
 
 template <typename Real>
@@ -138,8 +138,8 @@ struct PlaneRotation {
     Real sine;
 };
 
-// The rotation that makes a symmetric 2 x 2 matrix diagonal, by at most an eighth of a turn, in
-// some lanes; none in the others.
+// The Jacobi rotation that makes a symmetric 2 x 2 matrix diagonal, by at most 45 degrees; the
+// identity in lanes that are not to be turned.
 //
 // With d and t the difference and twice the off-diagonal entry, h = |d| + sqrt(d^2 + t^2) gives its
 // tangent t / h, so cosine and sine are h and t over sqrt(h^2 + t^2): one division and two roots.
@@ -163,7 +163,7 @@ PlaneRotation<Real> diagonalizing_rotation(const Real& difference,
             L::select(is_turned, signed_twice * inverse, zero)};
 }
 
-// Turns columns i and j of A by the plane rotation (c, s).
+// Applies the plane rotation (c, s) to columns i and j of A.
 template <typename Real, int Dim>
 void turn_columns(Tensor<Real, Dim>& A, int i, int j, const Real& c, const Real& s) {
     for (int row = 0; row < Dim; ++row) {
@@ -232,7 +232,7 @@ void complete_basis(Tensor<Real, Dim>& U, const Real (&sigma)[Dim], int lane) {
         }
         Number best_norm = 0;
         Number best[Dim] = {};
-        for (int axis = 0; axis < Dim; ++axis) {  // the axis with the largest part outside the rest
+        for (int axis = 0; axis < Dim; ++axis) {  // the axis that is farthest from the span so far
             Number candidate[Dim] = {};
             candidate[axis] = 1;
             for (int pass = 0; pass < 2; ++pass) {
@@ -322,9 +322,11 @@ template <int Round, typename Real, int Dim>
     return true;
 }
 
-/// One-sided Jacobi: columns of F are turned until they are orthogonal [golub2013, 8.6.3].
+/// Singular value decomposition by one-sided Jacobi: the columns of F are rotated until they are
+/// orthogonal [golub2013, 8.6.3]; they are then those of U, times sigma. The rotations make V,
+/// which is applied to `rest` instead of being formed.
 ///
-/// @param rest  Turned along; pass the identity to get V.
+/// @param rest  The identity gives V.
 template <typename Real, int Dim>
 SignedSvd<Real, Dim> signed_svd(Tensor<Real, Dim> F, Tensor<Real, Dim> rest) {
     using L = Lanes<Real>;
@@ -368,7 +370,7 @@ SignedSvd<Real, Dim> signed_svd(Tensor<Real, Dim> F, Tensor<Real, Dim> rest) {
         }
     }
     const Real sign = L::select(cofactor(svd.U).det < Real(Number(0)), -one, one);
-    Real pending = sign;  // goes to the first column whose sigma is the smallest
+    Real pending = sign;  // for the first column with the smallest sigma
     for (int j = 0; j < Dim; ++j) {
         const Real factor = L::select(svd.sigma[j] == smallest, pending, one);
         pending = L::select(svd.sigma[j] == smallest, one, pending);
@@ -401,7 +403,8 @@ Real filtered(const Real& value, Filter filter, Real& changed) {
     return value;
 }
 
-// 1 in lanes in which the symmetric matrix has a pivot below zero in L D L^T, else 0.
+// 1 in lanes in which the symmetric matrix has a negative pivot in L D L^T, else 0: by Sylvester's
+// law of inertia a cheap test for negative eigenvalues.
 template <typename Real, int Dim>
 Real has_negative_pivot(Tensor<Real, Dim> A) {
     using L = Lanes<Real>;
