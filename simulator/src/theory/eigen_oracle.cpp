@@ -16,16 +16,16 @@ using Eigen::MatrixXcd;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-// The determinant of a polynomial family det(F + t q) has cofactors that are polynomials in t.
-// Their coefficients of 1 and t by Cauchy's integral on |t| = 0.1, where the trapezoidal rule of 16
-// points leaves out t^16 and up: 1e-14 even for the q that enlarges all of 100 directions alike.
-// Away from t = 0 the matrix can be inverted where F cannot. Points below the real axis give
-// conjugate values.
+// cof F, and its derivative along a matrix q.
 struct Cofactors {
     MatrixXd at_zero;
     MatrixXd slope;
 };
 
+// The cofactors of F + t q are polynomials in t. Their coefficients of 1 and t by Cauchy's integral
+// on |t| = 0.1, by the trapezoidal rule with 16 points, whose errors are the terms from t^16 on:
+// 1e-14 even for the q that enlarges all of 100 directions alike. Away from t = 0 the matrix can be
+// inverted even where F cannot. Points below the real axis would give conjugate values.
 Cofactors cofactors_along(const MatrixXd& F, const MatrixXd& q) {
     constexpr int kPoints = 16;
     constexpr double kRadius = 0.1;
@@ -94,7 +94,7 @@ Cofactors cofactors(const MatrixXd& F, const MatrixXd& q) {
     return F.rows() <= kMaxDense ? cofactors_by_minors(F, q) : cofactors_along(F, q);
 }
 
-// F = R S, R a rotation and S symmetric, as the gradient of I1 has it.
+// Polar decomposition F = R S, R a rotation (the gradient of I1) and S symmetric.
 struct Polar {
     MatrixXd R;
     Eigen::SelfAdjointEigenSolver<MatrixXd> S;
@@ -105,7 +105,8 @@ struct Polar {
     }
 };
 
-// dR along q: R W with W skew and W S + S W = R^T q - q^T R, which differentiates F = R S.
+// The derivative of R along q: R W with W skew, W S + S W = R^T q - q^T R (a Lyapunov equation,
+// from differentiating F = R S), solved in the eigenvectors of S.
 std::optional<MatrixXd> rotation_slope(const MatrixXd& F, const MatrixXd& q) {
     const Polar polar(F);
     const MatrixXd& Q = polar.S.eigenvectors();
@@ -231,7 +232,7 @@ void keep_largest(double value, double& largest) {
     largest = value <= largest ? largest : value;
 }
 
-// Which modes to try: all, or the first and last of each kind and some between.
+// Which modes to check: all up to n = 8, else a sample that includes the last flip and twist.
 std::vector<Index> chosen_modes(Index n) {
     std::vector<Index> modes;
     const Index count = n * n;
@@ -250,8 +251,8 @@ std::vector<Index> chosen_modes(Index n) {
     return modes;
 }
 
-// All eigenvalues against those of the dense matrix, which a solver finds without knowing its
-// structure.
+// The largest error of eigenvalues against those of the dense matrix by a general solver, which
+// does not know of its structure.
 double value_error(const EigenFunction& function, const MatrixXd& F, const VectorXd& values) {
     const Index n = F.rows();
     MatrixXd H(n * n, n * n);

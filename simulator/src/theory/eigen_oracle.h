@@ -8,23 +8,23 @@
 
 namespace pent::simulator {
 
-/// Material of the energies in eigen_proof.h.
+/// The material that energies are proved with, see EigenFunction.
 [[nodiscard]] Material proof_material(Model model);
 
-/// H : q, the derivative of the gradient of a function along q, without singular values of F.
+/// H : q, the derivative of the gradient of a function along q, by other formulas than those of
+/// eigensystems.
 ///
-/// @return  n x n; nothing where the derivative does not exist: the rotation of F is not unique,
-/// and q
-///          would turn it.
+/// @return  n x n; nothing where the derivative does not exist, as the rotation of F is not unique
+///          and q would turn it.
 [[nodiscard]] std::optional<Eigen::MatrixXd> hessian_product(const EigenFunction& function,
                                                              const Eigen::MatrixXd& F,
                                                              const Eigen::MatrixXd& q);
 
-/// Sum of e . H e over all unit matrices e, from formulas of their own. hessian_product() must
-/// exist everywhere.
+/// The trace of H, the sum of e . H e over all unit matrices e, from separate formulas. All
+/// hessian_product() must exist.
 [[nodiscard]] double hessian_trace(const EigenFunction& function, const Eigen::MatrixXd& F);
 
-/// Adds a Hessian at F that is claimed to be `frame` to a proof.
+/// Checks the claim that the Hessian at F is `frame`, and adds the errors found to a proof.
 ///
 /// @param name  Of the state, for EigenProof::undefined.
 void compare(const EigenFunction& function,

@@ -33,8 +33,8 @@ struct State {
     VectorXd sigma;
 };
 
-// The kinds of singular values that formulas may trip over. All others are near 1, so that products
-// of a hundred of them are.
+// Kinds of singular values at which formulas may fail. Those not named are near 1, so that products
+// of a hundred of them neither vanish nor overflow.
 std::vector<State> states(Index n) {
     const double spread = n <= 8 ? 0.6 : 0.05;
     const VectorXd distinct = VectorXd::LinSpaced(n, 1 + spread, 1 - spread);

@@ -49,7 +49,7 @@ double product_without(const VectorXd& sigma, Index i, Index j) {
     return product;
 }
 
-// d I3 / d sigma.
+// dI3 / d sigma_i: the product of all other singular values.
 VectorXd growth_of(const VectorXd& sigma) {
     VectorXd growth(sigma.size());
     for (Index i = 0; i < sigma.size(); ++i) {
@@ -73,7 +73,7 @@ double second_invariant(const MatrixXd& F) {
 }
 
 // The coefficients of c1 (|F|^2 - n) + c2 (II - n (n - 1) / 2) - p (J - 1) + k/2 (J - 1)^2. In the
-// plane II = J^2 and carries no shear: c1 is what it is without it.
+// plane II = J^2 and resists no shear, so that c1 is mu / 2 there.
 struct MooneyRivlin {
     double c1;
     double c2;
@@ -95,7 +95,7 @@ HessianFrame empty_frame(const SignedSvd& svd) {
     return {svd.U, svd.V, MatrixXd::Zero(n, n), MatrixXd::Zero(n, n), MatrixXd::Zero(n, n)};
 }
 
-// Sets flip and twist of every pair from value(i, j).
+// Fills in flip or twist, symmetric matrices of pairs, from value(i, j), i < j.
 template <typename Value>
 void set_pairs(MatrixXd& pairs, const Value& value) {
     for (Index i = 0; i < pairs.rows(); ++i) {
@@ -298,10 +298,10 @@ double collapse_scale(const Material& material, int dim) {
         return 2 * law.c1 + 2 * (dim - 1) * law.c2 * s * s
                - (law.p + law.k * (1 - power * s * s)) * power;
     };
-    double low = 0;  // excess > 0
+    // Bisection, with excess > 0 at `low` (unless there is no such minimum: then low stays 0). At
+    // s = 1 excess is 0, too, but negative just below, as the material is stable at rest.
+    double low = 0;
     double high = 1;
-    // Both sides meet at s = 1 as well; just below it the right one is larger, for the material is
-    // stable at rest.
     for (int i = 0; i < 60; ++i) {
         const double middle = 0.5 * (low + high);
         (excess(middle) > 0 ? low : high) = middle;

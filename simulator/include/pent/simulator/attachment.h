@@ -14,9 +14,9 @@
 
 namespace pent::simulator {
 
-/// What becomes of the way from a selected vertex to what it is tied to.
+/// The rest offset of a spring: the vector from a selected vertex to what it is tied to.
 enum class RestOffset {
-    Keep,  ///< It is that of t = 0, and moves along with what the vertex is tied to.
+    Keep,  ///< That of t = 0; it is carried along by what the vertex is tied to.
     Zero,  ///< None: the spring pulls the two together.
 };
 template <>

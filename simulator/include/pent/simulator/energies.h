@@ -11,7 +11,7 @@ struct TermEnergy {
     std::string name;   ///< "elastic", "contact" and so on.
     double energy = 0;  ///< J.
     bool is_stored =
-        true;  ///< Whether it can be had back: friction's, of use to a line search, cannot.
+        true;  ///< Whether it can be recovered; that of friction, for line searches only, cannot.
 };
 
 /// Energies of a state, J: that of motion, and one for each part of the model that is there.

@@ -31,7 +31,7 @@ struct Material {
     double density = 1000;        ///< kg/m^Dim, > 0.
 };
 
-/// 1, but 1 + lambda / mu where lambda < 0: more would leave the energy without a lower bound.
+/// 1, but 1 + lambda / mu where lambda < 0: in 3D more would leave the energy without lower bound.
 [[nodiscard]] constexpr double highest_second_invariant(const Lame& lame) {
     return lame.lambda < 0 ? 1 + lame.lambda / lame.mu : 1;
 }

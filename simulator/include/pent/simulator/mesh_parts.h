@@ -13,17 +13,17 @@
 
 namespace pent::simulator {
 
-/// Ranks need not have whole meshes: a Simulation takes, for each body, a part as loaded: all
-/// vertices, and the NeededCells, with their labels of regions and fibers where the scene asks for
-/// these, and with their parents for quadratic elements. Its constructor then throws an Error
-/// without ranks and for other vertices than on other ranks, too. Whether cells are missing is not
-/// checked. Simulation::mesh() has no cells then, all ask for vertex_values() together, and bodies
-/// and obstacles do not come and go.
+/// Ranks need not have whole meshes. For each body a Simulation takes a part as loaded: all
+/// vertices, and the NeededCells; with region labels and fibers where the scene asks for these, and
+/// with the parents of cells for quadratic elements. Its constructor throws an Error also if there
+/// are no ranks, or if ranks have different vertices. Whether cells are missing is not checked.
+/// With parts Simulation::mesh() has no cells, vertex_values() is collective, and bodies and
+/// obstacles cannot be added or removed.
 
-/// The cells of a mesh that a rank needs: those that touch a vertex of its own, and those that make
-/// up an element with one of these. Of smoothed elements, which cells make up that share an edge,
-/// they have some more: all with two vertices of cells that touch one of its own. Whoever chooses
-/// shows all cells, where one is not enough to tell, and then asks for each.
+/// Which cells of a mesh a rank needs: those that touch a vertex of its own, and those that are
+/// part of the same elements as one of these. For smoothed elements, of all cells around an edge, a
+/// few more than necessary are chosen: those with two or more vertices of cells that touch a vertex
+/// of the rank. Where has_to_see_all(), first see() all cells, then ask has() of each.
 class NeededCells {
 public:
     /// @param vertices  Of the mesh.
@@ -33,10 +33,10 @@ public:
           is_own_(std::move(is_own)),
           is_near_vertex_(kind == ElementKind::Smoothed ? vertices : 0) {}
 
-    /// Whether all cells have to be shown first.
+    /// Whether see() has to be called with all cells first.
     [[nodiscard]] bool has_to_see_all() const { return kind_ != ElementKind::Linear; }
 
-    /// @param parent  That cells of one quadratic cell share; else it does not count.
+    /// @param parent  The quadratic cell that a cell is part of; not used for other elements.
     void see(std::span<const std::uint32_t> corners, std::uint32_t parent);
 
     [[nodiscard]] bool has(std::span<const std::uint32_t> corners, std::uint32_t parent) const;
@@ -46,7 +46,7 @@ private:
 
     ElementKind kind_;
     std::function<bool(std::uint32_t)> is_own_;
-    // Of cells that touch a vertex of this rank.
+    // Of cells that touch a vertex of this rank: their parents, and their vertices.
     std::unordered_set<std::uint32_t> parents_;
     std::vector<bool> is_near_vertex_;
 };
@@ -57,10 +57,10 @@ private:
 /// Whether an activation takes the fibers that the mesh of a body has.
 [[nodiscard]] bool are_fibers_asked_for(const Scene& scene, const Body& body);
 
-/// Which rank each vertex is at home on, of all bodies counted through. Throws an Error where there
-/// are more ranks than columns of vertices.
+/// Which rank owns each vertex, of all bodies counted through. Throws an Error if there are more
+/// ranks than extrusion columns.
 ///
-/// @param meshes  Of each body as loaded; cells do not count.
+/// @param meshes  Of each body as loaded; cells are not used.
 /// @param ranks   At least 1.
 template <int Dim>
 [[nodiscard]] std::vector<std::uint32_t> share_vertices(const Scene& scene,

@@ -11,13 +11,13 @@
 
 namespace pent::simulator {
 
-/// The mesh of a body as this process has it: the whole of it, or what ranks have of it, all
-/// vertices and the NeededCells, see mesh_parts.h. What is asked of it all ranks ask together, and
+/// The mesh of a body as this process has it: the whole of it, or the part of a rank, all vertices
+/// and the NeededCells, see mesh_parts.h. Functions of it are collective: all ranks call them, and
 /// all get the same answer.
 template <int Dim>
 struct MeshShare {
     const SimplexMesh<Dim>& mesh;
-    std::span<const std::uint32_t> owners = {};  ///< The rank of each vertex; empty for a whole.
+    std::span<const std::uint32_t> owners = {};  ///< Of each vertex, a rank; empty for a whole.
     const Ranks* ranks = nullptr;                ///< Null for a whole.
 
     [[nodiscard]] bool owns(std::uint32_t vertex) const {
@@ -29,8 +29,8 @@ struct MeshShare {
 struct MeshDepth {
     std::int64_t boundary_vertices = 0;
 
-    /// How many cells it is thick where it is thickest, or one less: twice the edges from there to
-    /// its boundary, or 1 where every vertex is on the boundary.
+    /// How many cells the thickest part is across, or one less: twice the number of edges from its
+    /// innermost vertex to the boundary; 1 where every vertex is on the boundary.
     ///
     /// Linear simplices bend too little: the fewer cells across, the less.
     int cells_across = 1;

@@ -20,7 +20,7 @@ template <int Dim>
 template <int Dim>
 [[nodiscard]] MeshPart<Dim> place(MeshPart<Dim> part, const Body& body);
 
-/// The same, of which nothing is checked.
+/// The same, in place, without any check.
 template <int Dim>
 void put_in_place(SimplexMesh<Dim>& mesh, const Placement& placement);
 
@@ -43,8 +43,8 @@ template <int Dim>
                                              const std::vector<Selection>& select,
                                              const std::string& where);
 
-/// Of what every cell of a placed mesh is: 0 for the material of the body, i + 1 for that of its
-/// i-th region. Throws an Error if a region selects nothing.
+/// The number of the material of every cell of a placed mesh: 0 for that of the body, i + 1 for
+/// that of its i-th region. Throws an Error if a region selects nothing.
 template <int Dim>
 [[nodiscard]] std::vector<std::uint16_t> materials_of_cells(const SimplexMesh<Dim>& mesh,
                                                             const Body& body);

@@ -13,12 +13,13 @@ namespace pent::simulator {
 
 /// Processes that take the steps of one scene together, each with elements and rows of its own.
 ///
-/// What follows is all that the simulator asks of them. Every method is called by all ranks, in the
-/// same order, with arguments that belong together; they wait for one another. What does not depend
-/// on the rank comes out the same to the bit on all of them, so that all take the same way through
-/// the code. A program on its own has no ranks.
+/// What follows is all that the simulator needs of a message-passing library. Every method is
+/// collective: all ranks call it, in the same order, with matching arguments, and wait for one
+/// another. Results that do not depend on the rank are the same to the bit on all of them, so that
+/// all take the same branches. A program on its own has no ranks.
 
-/// Copies columns of an array from the ranks that own them to where others have ghosts of them.
+/// Halo exchange: copies columns of an array from the ranks that own them to the ghosts that others
+/// have of them.
 class GhostExchange {
 public:
     GhostExchange() = default;
@@ -33,24 +34,24 @@ public:
     virtual void update(float* values, int rows) = 0;
 };
 
-/// Where the columns of ghosts are: one entry a ghost.
+/// The ghosts of a rank, in columns of an array: one entry a ghost.
 struct Ghosts {
-    std::uint32_t own_columns = 0;       ///< Of this rank, in front.
-    std::vector<std::uint32_t> columns;  ///< Here.
+    std::uint32_t own_columns = 0;       ///< Columns of this rank, which come first.
+    std::vector<std::uint32_t> columns;  ///< The column of the ghost on this rank.
     std::vector<std::uint32_t> owners;   ///< The rank that owns it, another than this one.
-    std::vector<std::uint32_t> places;   ///< Its column there.
+    std::vector<std::uint32_t> places;   ///< Its column on that rank.
 };
 
 /// A symmetric positive definite matrix of square blocks, its rows spread over the ranks: those of
 /// rank 0 first, then those of rank 1 and so on.
 struct SpreadMatrix {
     int block_size = 0;
-    std::int64_t first_row = 0;           ///< Blocks in front of those of this rank.
+    std::int64_t first_row = 0;           ///< Number of the first block row of this rank.
     std::vector<std::int64_t> row_start;  ///< Of block rows: rows of this rank + 1 entries.
     std::vector<std::int64_t> columns;    ///< Counted over all ranks, increasing within a row.
-    std::vector<double> values;           ///< Block after block, each by rows.
-    /// A column for each motion that costs next to no energy: rows of this rank. Of a body that is
-    /// thin or small they may depend on one another.
+    std::vector<double> values;           ///< Block after block, each row-major.
+    /// Near null space: a column for each motion that costs next to no energy, in the rows of this
+    /// rank. They may be linearly dependent, for a body that is thin or small.
     Eigen::MatrixXd near_kernel;
 
     [[nodiscard]] std::int64_t rows() const {
@@ -58,7 +59,7 @@ struct SpreadMatrix {
     }
 };
 
-/// z near A^-1 r for a spread matrix; linear, symmetric and positive definite in r.
+/// z = B r with B near A^-1 for a spread matrix; B is linear, symmetric and positive definite.
 class SpreadSolver {
 public:
     SpreadSolver() = default;
@@ -72,11 +73,11 @@ public:
     [[nodiscard]] virtual Eigen::VectorXd solve(const Eigen::VectorXd& r) = 0;
 };
 
-/// What ranks have told one another since they were last asked.
+/// What ranks have sent one another since the last Ranks::take_traffic().
 struct RankTraffic {
-    std::int64_t messages = 0;    ///< Sent from one rank to another, by all.
+    std::int64_t messages = 0;    ///< Messages from one rank to another, of all ranks.
     std::int64_t bytes = 0;       ///< In these.
-    std::int64_t reductions = 0;  ///< Sums and the like over all ranks.
+    std::int64_t reductions = 0;  ///< Collective operations over all ranks, as sums.
 };
 
 class Ranks {
@@ -103,7 +104,7 @@ public:
     [[nodiscard]] virtual std::unique_ptr<SpreadSolver> make_solver(
         const SpreadMatrix& matrix) const = 0;
 
-    /// Of all ranks together.
+    /// Traffic of all ranks together since the last call.
     [[nodiscard]] virtual RankTraffic take_traffic() const = 0;
 };
 
@@ -119,10 +120,10 @@ void refuse_others(const Ranks* ranks,
 /// Whether it is so on any rank.
 [[nodiscard]] bool any(const Ranks& ranks, bool is_so);
 
-/// Does some work of this rank alone: reading, writing, anything that may fail on one rank and not
-/// on another. Where it fails on any, all throw an Error, that of the first of them.
+/// Does work that may fail on one rank and not on another, as reading and writing files. Where it
+/// fails on any rank all throw an Error, that of the first one that failed.
 ///
-/// @param ranks  Null for none: the work is done, and what it throws comes through.
+/// @param ranks  Null for none: the work is done, and throws what it throws.
 void agree(const Ranks* ranks, const std::function<void()>& work);
 
 }  // namespace pent::simulator

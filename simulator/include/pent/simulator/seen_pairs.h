@@ -8,22 +8,21 @@
 
 namespace pent::simulator {
 
-/// Which bodies of a scene with [contact] see each other: what `self`, `ignore`, `only` and
-/// attachments say together. Their names, which are all of bodies that are there (see check()), are
-/// looked up once.
+/// Which bodies of a scene with [contact] may touch: what `self`, `ignore`, `only` and attachments
+/// say together. Names are looked up once; all of them have to be those of bodies, see check().
 class SeenPairs {
 public:
     explicit SeenPairs(const Scene& scene);
 
-    /// Whether two bodies, or one with itself, see each other, by their places in the scene.
+    /// Whether two bodies, or one with itself, may touch, by their places in the scene.
     [[nodiscard]] bool may_touch(std::size_t a, std::size_t b) const;
 
 private:
     using Pairs = std::vector<std::pair<std::size_t, std::size_t>>;  // low, high; ascending
 
-    Pairs apart_;  // by `ignore` and by attachments
+    Pairs apart_;  // that may not touch, by `ignore` and by attachments
     Pairs only_;
-    bool do_all_;  // see each other but for those apart: there is no `only`
+    bool do_all_;  // whether all others may: there is no `only`
     bool do_selves_;
 };
 

@@ -57,8 +57,8 @@ public:
     /// velocities and time stay as they were; bodies that it woke are awake.
     [[nodiscard]] StepReport step();
 
-    /// As it is now; bodies have nothing left to be placed by once a body or an obstacle was
-    /// added or removed.
+    /// As it is now. Once a body or an obstacle has been added or removed the placements of bodies
+    /// are identities, as their meshes have been placed.
     [[nodiscard]] const Scene& scene() const;
 
     [[nodiscard]] int body_count() const;
@@ -68,7 +68,7 @@ public:
     [[nodiscard]] View forces(int body) const;                   ///< Of all that has an energy, N.
     [[nodiscard]] Eigen::Map<const Eigen::VectorXd> masses(int body) const;  ///< Lumped, kg.
 
-    [[nodiscard]] std::shared_ptr<const void> arrays() const;  ///< Keeps what views of now show.
+    [[nodiscard]] std::shared_ptr<const void> arrays() const;  ///< Keeps current views valid.
 
     /// Forces of contact alone, of bodies and obstacles, on the vertices of a body, Dim x vertices,
     /// N.
@@ -105,9 +105,9 @@ public:
     /// @param body  Below body_count().
     void set_state(int body, const Positions<Dim>& positions, const Positions<Dim>& velocities);
 
-    // What a host does, see HostState; it counts from the next step on, and forces() and energies()
-    // are until then those of before. What sleeps wakes where it matters. All throw an Error, and
-    // change nothing, where bodies, vertices or numbers are not in their range.
+    // What a host does, see HostState. It takes effect with the next step; until then forces() and
+    // energies() stay as they are. Bodies that it concerns wake. All throw an Error, and change
+    // nothing, where bodies, vertices or numbers are not in their range.
 
     /// Holds vertices of a body and takes them, on a straight way, to targets (Dim x vertices, m)
     /// by the end of the next step; there they stay until they have other targets. From then on a

@@ -44,7 +44,7 @@ inline constexpr std::array kWords<Filter> = {
     Word<Filter>{Filter::None, "none"},
 };
 
-/// Conjugate gradients; sparse L L^T, the reference, for scenes that the memory allows.
+/// Conjugate gradients; sparse Cholesky, the reference, for scenes that fit into memory.
 enum class LinearSolverKind { Iterative, Direct };
 template <>
 inline constexpr std::array kWords<LinearSolverKind> = {
@@ -52,7 +52,8 @@ inline constexpr std::array kWords<LinearSolverKind> = {
     Word<LinearSolverKind>{LinearSolverKind::Direct, "direct"},
 };
 
-/// Block Jacobi; Jacobi by whole extrusion columns; the latter with a coarse space of rigid modes.
+/// Block Jacobi; line Jacobi by extrusion columns; the latter with aggregation multigrid by rigid
+/// modes.
 enum class PreconditionerKind { BlockJacobi, ColumnJacobi, RigidModes };
 template <>
 inline constexpr std::array kWords<PreconditionerKind> = {
@@ -61,7 +62,7 @@ inline constexpr std::array kWords<PreconditionerKind> = {
     Word<PreconditionerKind>{PreconditionerKind::RigidModes, "rigid-modes"},
 };
 
-/// Scalar of the matrix blocks; vectors are always double.
+/// In which matrix blocks are stored; vectors are always double.
 enum class Precision { Float, Double };
 template <>
 inline constexpr std::array kWords<Precision> = {
@@ -76,9 +77,9 @@ struct SolverOptions {
     LinearSolverKind linear = LinearSolverKind::Iterative;
     PreconditionerKind preconditioner = PreconditionerKind::RigidModes;
     Precision precision = Precision::Float;
-    double tolerance = 1e-4;  ///< |b - A x| / |b| at which the linear solve stops, in (0, 1); of
-                              ///< several materials also with each force over the stiffness there,
-                              ///< and over the density.
+    double tolerance = 1e-4;  ///< |b - A x| / |b| at which the linear solve stops, in (0, 1); with
+                              ///< several materials also for forces over the local stiffness, and
+                              ///< over the local density.
     double newton_tolerance =
         1e-4;                   ///< Unbalanced force at the end of a step over that at its start,
                                 ///< as for tolerance, in (0, 1); not for LinearEuler.

@@ -4,12 +4,12 @@
 
 namespace pent::simulator {
 
-/// Least extent of a body along the axes of space and its own, m: those in which its vertices are
-/// spread least, most and between.
+/// The least extent of a body, m, along the coordinate axes and along its principal axes (those of
+/// the covariance of its vertices).
 ///
 /// A plate is as thick as it is, however it is turned. The result is never less than the body is
 /// wide in its narrowest direction, nor more than the shortest side of the upright box around it;
-/// of a body of equal sides, which has no axes of its own, it may be anything between the two.
+/// of a body of equal sides, whose principal axes are not unique, it may be anything between.
 ///
 /// @param positions  Of the vertices, m; at least one, finite.
 template <int Dim>
