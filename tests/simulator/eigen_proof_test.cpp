@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <limits>
 #include <set>
 #include <string>
 
@@ -28,6 +29,14 @@ TEST_P(EigenProofs, HoldInDimension30WithoutAMatrix) {
     EXPECT_TRUE(proof.holds()) << proof.residual << " " << proof.orthogonality << " "
                                << proof.trace;
     EXPECT_GE(proof.modes, 8 * 10 - 2);
+}
+
+// Beyond n = 8 a sample of modes is tried, whatever the number of modes leaves over by its stride.
+TEST(EigenProofs, TryNoModeTwice) {
+    for (int dim = 9; dim <= 24; ++dim) {
+        const EigenProof proof = prove_eigensystem(Invariant::I2, dim);
+        EXPECT_TRUE(proof.holds()) << dim << ": " << proof.residual << " " << proof.orthogonality;
+    }
 }
 
 // The rotation is not unique where two singular values add up to 0: one twist there, in two states.
@@ -97,6 +106,22 @@ TEST(EigenProofs, FailForAWrongEigenvalueOrEigenmatrix) {
     EigenProof skewed;
     compare(Model::StableNeoHookean, F, wrong, "", skewed);
     EXPECT_GT(skewed.orthogonality, 1e-3);
+}
+
+// Nor may what is not a number pass, in one mode among many, in a small matrix or in a large one.
+TEST(EigenProofs, FailForAnEigenvalueThatIsNotANumber) {
+    for (const int dim : {4, 9}) {
+        const MatrixXd F = 1.2 * MatrixXd::Identity(dim, dim);
+        HessianFrame wrong = hessian(proof_material(Model::Linear), F);
+        wrong.flip(0, 1) = std::numeric_limits<double>::quiet_NaN();
+        EigenProof proof;
+        compare(Model::Linear, F, wrong, "", proof);
+        EXPECT_FALSE(proof.holds()) << dim;
+        EigenProof all = prove_eigensystem(Model::Linear, dim);
+        EXPECT_TRUE(all.holds());
+        all.merge(proof);
+        EXPECT_FALSE(all.holds()) << dim;
+    }
 }
 
 }  // namespace

@@ -3,8 +3,10 @@
 #include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 
+#include <algorithm>
 #include <cmath>
 #include <complex>
+#include <limits>
 #include <numbers>
 
 namespace pent::simulator {
@@ -228,8 +230,7 @@ double model_trace(Model model, const MatrixXd& F) {
 }
 
 void keep_largest(double value, double& largest) {
-    // A NaN must not pass for a small error.
-    largest = value <= largest ? largest : value;
+    largest = larger_error(largest, value);
 }
 
 // Which modes to check: all up to n = 8, else a sample that includes the last flip and twist.
@@ -244,9 +245,10 @@ std::vector<Index> chosen_modes(Index n) {
     for (Index k = n; k < count; k += pair_step) {
         modes.push_back(k);
     }
-    if (modes.back() != count - 1) {
-        modes.push_back(count - 2);
-        modes.push_back(count - 1);
+    for (const Index k : {count - 2, count - 1}) {
+        if (modes.back() < k) {
+            modes.push_back(k);
+        }
     }
     return modes;
 }
@@ -254,6 +256,9 @@ std::vector<Index> chosen_modes(Index n) {
 // The largest error of eigenvalues against those of the dense matrix by a general solver, which
 // does not know of its structure.
 double value_error(const EigenFunction& function, const MatrixXd& F, const VectorXd& values) {
+    if (values.hasNaN()) {  // which has no place in an order
+        return std::numeric_limits<double>::quiet_NaN();
+    }
     const Index n = F.rows();
     MatrixXd H(n * n, n * n);
     for (Index k = 0; k < n * n; ++k) {
@@ -307,6 +312,10 @@ double hessian_trace(const EigenFunction& function, const MatrixXd& F) {
     return 0;
 }
 
+double larger_error(double a, double b) {
+    return a >= b || std::isnan(a) ? a : b;
+}
+
 void compare(const EigenFunction& function,
              const MatrixXd& F,
              const HessianFrame& frame,
@@ -314,7 +323,8 @@ void compare(const EigenFunction& function,
              EigenProof& proof) {
     const Index n = F.rows();
     const Eigensystem system(frame);
-    const double scale = system.values().cwiseAbs().maxCoeff();
+    const double largest = system.values().cwiseAbs().maxCoeff();
+    const double scale = largest > 0 ? largest : 1;  // in the plane H of I1 may be zero
     const std::vector<Index> chosen = chosen_modes(n);
     std::vector<MatrixXd> modes;
     Index undefined = 0;

@@ -24,6 +24,9 @@ namespace pent::simulator {
 /// hessian_product() must exist.
 [[nodiscard]] double hessian_trace(const EigenFunction& function, const Eigen::MatrixXd& F);
 
+/// The larger of two errors; NaN if either is, which must not pass for a small error.
+[[nodiscard]] double larger_error(double a, double b);
+
 /// Checks the claim that the Hessian at F is `frame`, and adds the errors found to a proof.
 ///
 /// @param name  Of the state, for EigenProof::undefined.

@@ -84,17 +84,18 @@ std::vector<EigenFunction> eigen_functions() {
 
 bool EigenProof::holds() const {
     constexpr double kRounding = 1e-10;
-    return std::max({values, residual, orthogonality, trace}) < kRounding;
+    return larger_error(larger_error(values, residual), larger_error(orthogonality, trace))
+           < kRounding;
 }
 
 void EigenProof::merge(const EigenProof& other) {
     dim = std::max(dim, other.dim);
     states += other.states;
     modes += other.modes;
-    values = std::max(values, other.values);
-    residual = std::max(residual, other.residual);
-    orthogonality = std::max(orthogonality, other.orthogonality);
-    trace = std::max(trace, other.trace);
+    values = larger_error(values, other.values);
+    residual = larger_error(residual, other.residual);
+    orthogonality = larger_error(orthogonality, other.orthogonality);
+    trace = larger_error(trace, other.trace);
     for (const UndefinedModes& theirs : other.undefined) {
         const auto ours = std::find_if(undefined.begin(), undefined.end(), [&](const auto& entry) {
             return entry.state == theirs.state;
