@@ -269,8 +269,8 @@ void complete_basis(Tensor<Real, Dim>& U, const Real (&sigma)[Dim], int lane) {
     }
 }
 
-// A sweep of Jacobi takes every pair of columns once, in rounds of pairs (i, i ^ Round). Pairs of one
-// round share no column, so that none waits for the roots of another.
+// A sweep of Jacobi takes every pair of columns once, in rounds of pairs (i, i ^ Round). Pairs of
+// one round share no column, so that none waits for the roots of another.
 template <int Round, int Dim, typename Visit>
 [[gnu::always_inline]] inline void for_each_pair(const Visit& visit) {
 #pragma GCC unroll 4
@@ -423,8 +423,8 @@ Real has_negative_pivot(Tensor<Real, Dim> A) {
     return found;
 }
 
-// One round of two-sided Jacobi: makes the entries of A zero where the pairs meet. The largest entry
-// of A is near 1.
+// One round of two-sided Jacobi: makes entries (i, i ^ Round) of A zero. The largest entry of A is
+// near 1.
 //
 // @return  Whether any was not zero yet.
 template <int Round, typename Real, int Dim>
