@@ -7,8 +7,8 @@
 
 namespace pent::contact {
 
-/// Whether the boxes of two sets of points are at least a distance apart: a cheap no to whether the
-/// points' hulls are nearer.
+/// Whether the boxes of two sets of points are at least a distance apart: then so are their hulls,
+/// which is a cheap way to rule most pairs out.
 template <int Dim, int M, int N>
 [[nodiscard]] bool are_boxes_apart(const Corners<Dim, M>& first,
                                    const Corners<Dim, N>& second,
@@ -18,9 +18,9 @@ template <int Dim, int M, int N>
     return above.cwiseMax(below).cwiseMax(0).squaredNorm() >= distance_squared;
 }
 
-/// The same for points that move evenly, each from its column in one matrix to that in the other:
-/// whether the boxes are that far apart at all times. How far they are along an axis is concave in
-/// time.
+/// The same for points that move linearly, each from its column in one matrix to that in the other:
+/// whether the boxes are that far apart at all times. Their gap along an axis is concave in time,
+/// so that both ends tell.
 template <int Dim, int M, int N>
 [[nodiscard]] bool are_paths_apart(const Corners<Dim, M>& first,
                                    const Corners<Dim, M>& first_end,
@@ -36,8 +36,8 @@ template <int Dim, int M, int N>
     return above.cwiseMax(below).cwiseMax(0).squaredNorm() >= distance_squared;
 }
 
-/// How far sets of points are apart along a line: from the first to the second, times the length of
-/// `line`.
+/// The gap between two sets of points along a line, from the first to the second, times the length
+/// of `line`.
 template <int Dim, int M, int N>
 [[nodiscard]] double gap_along(const Vector<Dim>& line,
                                const Corners<Dim, M>& first,
@@ -55,8 +55,8 @@ template <int Dim, int M, int N>
     return gap_along<Dim, M, N>(line, first, second) > distance * line.norm();
 }
 
-/// How much nearer the hulls of two sets of points that move evenly can come on their way, at most:
-/// the longest way of a point of one against a point of the other.
+/// How much nearer the hulls of two sets of points that move linearly can come on their way, at
+/// most: the longest path of a point of one relative to a point of the other.
 template <int Dim, int M, int N>
 [[nodiscard]] double relative_path_length(const Corners<Dim, M>& first,
                                           const Corners<Dim, M>& first_end,

@@ -22,7 +22,7 @@ constexpr std::size_t kChunk = 512;
 // Found contacts are sorted in stretches of this many, which are then merged.
 constexpr std::size_t kStretch = 4096;
 
-// What is in no place of a contact's vertices.
+// Stands in unused places of a contact's vertices.
 constexpr std::uint32_t kNoVertex = 0xffffffff;
 
 // The contact of one pair of simplices, and which pair: the list, and the places in it.
@@ -35,8 +35,8 @@ struct Found {
 template <int Dim>
 using FoundLists = std::vector<std::vector<Found<Dim>>>;
 
-// Where a contact comes among the found ones: by its faces, then by its pair. Contacts of the same
-// faces that have no mollifier are one.
+// The order of contacts: by their faces, then by their pair. Contacts of the same faces that have
+// no mollifier are one.
 template <int Dim>
 struct Key {
     std::uint32_t kind = 0;
@@ -63,7 +63,7 @@ private:
     static constexpr std::uint32_t kMollified = 16;
 };
 
-// Merges neighboring stretches of what is ascending in each, two by two, until there is one.
+// Merges stretches that are sorted, neighbors two by two, until there is one.
 //
 // @param starts  Where they begin.
 template <typename Item>
@@ -153,7 +153,8 @@ struct Side {
     unsigned face = 0;  // Bit i: corner i spans the nearest face
 };
 
-// Corners of faces by increasing vertex, since simplices have theirs in any order.
+// Adds the corners of a face by increasing vertex, since simplices have theirs in any order; those
+// of a whole simplex as they come.
 template <int Dim>
 void add_corners(const Side& side, bool is_whole, double sign, Contact<Dim>& contact) {
     const int begin = contact.corner_count;
@@ -181,9 +182,9 @@ std::uint32_t lowest_vertex(const Side& side) {
     return lowest;
 }
 
-// The contact of nearest faces, or of whole simplices where they are nearly parallel. Of a core
-// comes second; of two bodies the face with the lower vertex first, so that the same faces are the
-// same contact whatever pair they come from, but whole simplices the edge.
+// The contact of the nearest faces, or of whole simplices where they are nearly parallel. A core
+// comes second. Of two bodies the face with the lower vertex comes first, so that the same faces
+// are the same contact whatever pair they come from; of whole simplices the edge does.
 template <int Dim>
 Contact<Dim> make_contact(const Colliders<Dim>& colliders,
                           const Side& a,
@@ -214,7 +215,7 @@ Contact<Dim> make_contact(const Colliders<Dim>& colliders,
     return contact;
 }
 
-// c0 of a mixed pair, or 0 where it is not nearly parallel.
+// The threshold c0 of the mollifier of a mixed pair, or 0 where it is not nearly parallel.
 template <int Dim>
 double parallel_threshold(const Corners<Dim, 2>& edge_at_rest,
                           const Corners<Dim, Dim - 1>& ridge_at_rest,

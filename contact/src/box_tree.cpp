@@ -19,7 +19,8 @@ namespace {
 // Subtrees below this size are built and fit by one thread.
 constexpr std::uint32_t kSerial = 4096;
 
-// A float at or below the value: two units in the last place are more than both roundings.
+// A float at or below the value: the product with two units in the last place is more than both
+// roundings.
 float round_down(double value) {
     const float nearest = static_cast<float>(value);
     return nearest - std::abs(nearest) * 2.4e-7F - std::numeric_limits<float>::min();
@@ -44,7 +45,7 @@ std::vector<std::uint32_t> counted(std::size_t count) {
     return numbers;
 }
 
-// Breadth first, so that pieces are of like size.
+// Splits work breadth first, so that pieces are of like size.
 class Splitter {
 public:
     Splitter(const BoxTree& first, const BoxTree& second) : first_(first), second_(second) {}

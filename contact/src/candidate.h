@@ -8,7 +8,8 @@
 #include <utility>
 #include <vector>
 
-// Lists of what may come near what, and which of it a look is worth.
+// Lists of pairs that may come near each other, and the cull by distances that holds most of them
+// back.
 
 namespace pent::contact {
 
@@ -28,15 +29,15 @@ struct Candidate {
     return static_cast<float>(distance * (1 - 1e-7));
 }
 
-/// Candidates in any order, but those whose distance is known come first. All others have the
-/// greatest distance that was measured.
+/// Candidates in any order, but with those first whose distance is known. All others have, as a
+/// lower bound, the greatest distance that was measured.
 struct CandidateList {
     std::vector<Candidate> pairs;
     std::size_t known_count = 0;
     std::int64_t overlaps = 0;  ///< Pairs looked at one by one: the work of the search.
 };
 
-/// What of two colliders (or of one and itself) can come near.
+/// The pairs of two colliders (or of one and itself) that can come near.
 struct CandidatePairs {
     int first = 0;
     int second = 0;
@@ -100,7 +101,8 @@ public:
     /// Of no vertex.
     Displacement() = default;
 
-    /// Of what is between the first and the last of some vertices, and of some others; ascending.
+    /// With a place for every vertex from the first to the last of some vertices, and of some
+    /// others; both ascending.
     Displacement(const Simplices<1>& first, const Simplices<1>& second) {
         const auto [a, b] = first(0, 0) < second(0, 0) ? std::pair(span_of(first), span_of(second))
                                                        : std::pair(span_of(second), span_of(first));
@@ -135,7 +137,7 @@ private:
         return {vertices(0, 0), vertices(0, vertices.cols() - 1) + 1};
     }
 
-    // Colliders have their vertices one after the other: what is between two of them is left out.
+    // Each collider has its vertices one after the other; those between two of them have no place.
     [[nodiscard]] std::size_t place(std::uint32_t vertex) const {
         return vertex - (vertex < second_ ? first_ : skipped_);
     }
@@ -146,9 +148,9 @@ private:
     std::uint32_t skipped_ = 0;          // vertices before it that have no place
 };
 
-/// Tells which candidates of a list may come within a distance, from how far they were apart and
-/// how far they have gone since: most are held back by two numbers, without a look at where they
-/// are.
+/// Tells which candidates of a list may come within a distance, from how far apart they were and
+/// how far their vertices have gone since: most are held back by comparing two numbers, without a
+/// look at positions.
 class DistanceCull {
 public:
     /// List and displacement are kept by reference; the distance in m.

@@ -20,8 +20,8 @@ namespace {
 // they cost as much.
 constexpr double kInflation = 0.25;
 
-// Candidates of a motion this many times as long as what is asked for are many more than are of
-// use.
+// Lists made for a motion this many times as long as what is asked for have many more pairs than
+// are of use.
 constexpr double kTooCoarse = 3;
 
 // The inflation around long paths is this part of them: Newton's method goes less far from one
@@ -30,13 +30,13 @@ constexpr double kTooCoarse = 3;
 constexpr double kInflationOfPath = 0.1;
 
 // Distances are measured up to this many times the activation distance: while no vertex has gone
-// farther than 0.3 times that from there, no other pair can be within it.
+// farther than 0.3 times that distance since, no pair beyond can be within it.
 constexpr double kMeasured = 1.6;
 
 // Pairs of a penalty kept for another evaluation, at most: 96 MB.
 constexpr std::size_t kMaxKept = 8'000'000;
 
-// Of what ascends.
+// Whether a list that ascends has an item.
 template <typename Item>
 bool contains(const std::vector<Item>& items, const Item& item) {
     return std::binary_search(items.begin(), items.end(), item);
@@ -134,8 +134,9 @@ std::vector<typename Candidates<Dim>::Pair> Candidates<Dim>::covered(
     return covered;
 }
 
-// Not where a motion needs few of the candidates, and distances measured elsewhere do not tell
-// which.
+// Whether lists hold for the paths and are worth keeping: not where these are much shorter than
+// what the lists were made for, and so far from where distances were measured that these hold few
+// pairs back.
 template <int Dim>
 bool Candidates<Dim>::does_cover(const Meeting<Dim>& meeting, const Paths<Dim>& paths) const {
     const PathCover<Dim>& cover = meeting.cover;
@@ -177,7 +178,7 @@ void Candidates<Dim>::cover_within(const Paths<Dim>& paths, const std::vector<Pa
     }
 }
 
-// A convex body that has not been bent enough to meet itself takes no search.
+// A convex body that has not been bent enough to meet itself needs no search.
 template <int Dim>
 Meeting<Dim> Candidates<Dim>::find_within(int body, Paths<Dim> paths) {
     const std::optional<ConvexBody<Dim>>& convex = convex_[static_cast<std::size_t>(body)];
@@ -209,8 +210,8 @@ SelfProximity<Dim>& Candidates<Dim>::proximity(int body) {
     return *proximity;
 }
 
-// What lies still beside what moves is not searched, and what is far off is forgotten once it
-// moves.
+// Searches pairs of colliders that are near and not covered, and drops lists of those that are
+// neither.
 template <int Dim>
 void Candidates<Dim>::cover_between(const Paths<Dim>& paths, const std::vector<Pair>& covered) {
     const std::vector<Pair> near = overlapping(paths);
@@ -226,7 +227,7 @@ void Candidates<Dim>::cover_between(const Paths<Dim>& paths, const std::vector<P
     }
 }
 
-// Colliders that may meet and whose boxes overlap, ascending: the others need no more.
+// The broad phase: colliders that may meet and whose boxes overlap, ascending.
 template <int Dim>
 std::vector<typename Candidates<Dim>::Pair> Candidates<Dim>::overlapping(Paths<Dim> paths) {
     const Stopwatch watch;
@@ -316,7 +317,8 @@ void Candidates<Dim>::fit_patches(int collider, const Paths<Dim>& paths) {
     patches->set_lanes(paths);
 }
 
-// Pairs hold for a shift of both colliders, trees do not: they are where these are now.
+// Lists of pairs hold where both colliders are shifted, trees do not: these are fit to the
+// positions.
 template <int Dim>
 void Candidates<Dim>::fit_trees(const PositionsView<Dim>& positions) {
     const Stopwatch watch;

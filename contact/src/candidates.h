@@ -30,18 +30,18 @@ struct SearchWork {
 /// separation) of each other while vertices move along straight paths; a single position is a path
 /// of no length. Pairs that share a vertex are left out.
 ///
-/// Vertices may leave their paths by an inflation: pairs of two colliders hold for all positions
-/// that have every vertex of the two that near to where its path is at one and the same time, but
-/// for a shift of both. Only for others are they searched again, or when much shorter motions are
-/// asked for elsewhere: so what lies still is searched once, whatever goes on beside it, and what
-/// flies with another is not.
+/// Lists are kept, as Verlet lists are: vertices may leave their paths by an inflation. The pairs
+/// of two colliders hold for all positions at which, up to a common translation and at one common
+/// time, each of their vertices is that near to its path. Only for others are they searched again,
+/// or when much shorter motions are asked for elsewhere. So what lies still is searched once,
+/// whatever goes on beside it, and colliders that fly together are not searched again.
 ///
-/// Each candidate knows how far apart it was where the paths end, which is where Newton's method
-/// goes on: a DistanceCull holds most of them back there.
+/// Each candidate knows how far apart it was at the ends of the paths, which is where Newton's
+/// method goes on: a DistanceCull holds most of them back there.
 ///
-/// Of a penalty, mixed pairs are those whose closest points are inside both, unless they are kept
-/// for other positions (a margin). Within bodies its candidates are found anew each time, by a
-/// SelfProximity: those alone that can be in contact.
+/// Under a penalty, mixed pairs are those whose closest points are inside both, unless they are
+/// kept for other positions (a margin). Candidates within bodies are then found anew each time, by
+/// a SelfProximity: only those that can be in contact.
 template <int Dim>
 class Candidates {
 public:
@@ -50,14 +50,15 @@ public:
     ///                   lists, if empty ones.
     explicit Candidates(const Colliders<Dim>& colliders, const SharedWork& shared = {});
 
-    /// Sees to it that there is what can come near on the way between two positions, and not much
-    /// more.
+    /// Makes the lists hold for straight paths between two positions, without many more pairs than
+    /// these need.
     void cover(const PositionsView<Dim>& from, const PositionsView<Dim>& to);
 
-    /// Sees to it that there is what can be near at these positions.
+    /// Makes the lists hold for these positions.
     void cover(const PositionsView<Dim>& positions);
 
-    /// Drops pairs that would not be of use again, or that are too many to keep for penalties.
+    /// Under a penalty, drops pairs that are not kept for another evaluation, or that are too many
+    /// to be.
     void drop_what_is_not_kept();
 
     [[nodiscard]] const Meetings<Dim>& meetings() const { return meetings_; }
@@ -72,14 +73,15 @@ public:
         return activation_distance_ + colliders_.radius(first) + colliders_.radius(second);
     }
 
-    /// Whether mixed pairs are all that are near now, inside both, and no other.
+    /// Whether the mixed pairs between colliders are exactly those that are near now, with closest
+    /// points inside both.
     [[nodiscard]] bool is_exact() const { return is_penalty() && min_inflation_ == 0; }
 
     [[nodiscard]] const Colliders<Dim>& colliders() const { return colliders_; }
     [[nodiscard]] const SharedWork& shared() const { return shared_; }
 
-    /// Over boxes that hold the vertices and the facets of a collider that meets others where they
-    /// are now, under a penalty.
+    /// The trees, under a penalty, over boxes around the vertices and facets, where they are now,
+    /// of a collider that meets others.
     [[nodiscard]] const SurfaceTrees<Dim>& trees(int collider) const {
         return trees_[static_cast<std::size_t>(collider)];
     }
@@ -105,7 +107,7 @@ private:
     void fit_patches(int collider, const Paths<Dim>& paths);
     void fit_trees(const PositionsView<Dim>& positions);
     [[nodiscard]] CandidatePairs find_between(const Pair& pair, const Paths<Dim>& paths) const;
-    // Up to where distances are measured under a barrier, m.
+    // The distance up to which distances are measured under a barrier, m.
     [[nodiscard]] double measured_within(double distance) const;
     template <int K, int L>
     [[nodiscard]] CandidateList search(int first, int second, const Paths<Dim>& paths) const;

@@ -13,15 +13,15 @@ namespace pent::contact {
 
 namespace {
 
-// Stops the advances where the gap does not.
+// A bound on the advances, which the gap ends long before.
 constexpr int kMaxAdvances = 10'000;
 
 // Of distances, with room to spare.
 constexpr double kRounding = 1e-9;
 
-// How long the two simplices stay `target` apart along u; 0 if they are not. Every two corners are
-// on their sides for as long as that, so the hulls of the corners are too: also those that move
-// apart, which rounding in u may have on the wrong sides where the gap is small.
+// The time up to which two simplices stay `target` apart along u; 0 if they are not at the start.
+// All pairs of corners do until then, so the hulls of the corners do. Pairs that move apart count,
+// too: rounding in u may have them on the wrong sides where the gap is small.
 template <int Dim, int K, int L>
 double time_apart(const Vector<Dim>& u,
                   const Corners<Dim, K>& first,
@@ -76,15 +76,15 @@ double safe_fraction(const Corners<Dim, K>& first,
     if (are_paths_apart<Dim, K, L>(a, a + first_path, b, b + second_path, always * always)) {
         return limit;
     }
-    // Nor do those that as far as the limit keep apart by more than what a motion may be stopped
-    // at: of long motions that something stops early most.
+    // Nor do those that, as far as the limit, keep apart by more than the gap at which a motion is
+    // stopped: most pairs of a long motion that another pair stops early.
     const double felt = (clearance.separation + kGapReached * clearance.distance) * (1 + kRounding);
     if (limit < 1
         && are_paths_apart<Dim, K, L>(a, a + limit * first_path, b, b + limit * second_path,
                                       felt * felt)) {
         return limit;
     }
-    double near_gap = 0;  // what counts of the gap at the start
+    double near_gap = 0;  // the gap at the start, or Clearance::distance if that is less
     double t = 0;
     for (int advance = 0; advance < kMaxAdvances; ++advance) {
         ClosestPointSearch<Dim, K, L> search(a, b, kFar);

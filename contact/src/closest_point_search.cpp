@@ -26,7 +26,7 @@ void ClosestPointSearch<Dim, K, L>::visit() {
         }
         offset += edges * t;
         if (!(offset.squaredNorm() < best_.distance_squared)) {
-            return;  // nor is any point of the faces of these
+            return;  // no point of these faces is nearer
         }
         if (is_inside<A, B>(t)) {
             record<A, B>(t, offset);
@@ -36,8 +36,9 @@ void ClosestPointSearch<Dim, K, L>::visit() {
     }
 }
 
-// The minimum of a convex function over a polytope lies on a facet that its free minimum is
-// beyond: a facet is the lack of one corner, and beyond it the weight of that corner is negative.
+// The minimum of a convex function over a polytope, if its free minimum is outside, lies on a facet
+// that the free minimum is beyond. Each facet lacks one corner; beyond it the weight of that corner
+// is negative.
 template <int Dim, int K, int L>
 template <unsigned A, unsigned B>
 [[gnu::noinline]] void ClosestPointSearch<Dim, K, L>::visit_facets(
@@ -61,7 +62,7 @@ template <unsigned A, unsigned B>
     }
 }
 
-// Edges that are dependent, or nearly so: a stable solution where there is one, and all facets.
+// Edges that are dependent, or nearly so: tries a stable solution, if there is one, and all facets.
 template <int Dim, int K, int L>
 template <unsigned A, unsigned B>
 [[gnu::noinline]] void ClosestPointSearch<Dim, K, L>::visit_dependent(

@@ -32,9 +32,9 @@ struct ClosestPoints {
 /// right to rounding (1e-14 of the size of the simplices) for parallel, touching and collapsed
 /// simplices too. Which of several closest pairs comes out depends on the order of the corners.
 ///
-/// In a header so that searches can inline what most pairs need, run_interior(). All faces are in
-/// the source, once. Faces are bit masks of corners known at compile time: every face pair has its
-/// own straight code.
+/// In a header so that searches can inline what most pairs need, run_interior(); the recursion over
+/// all faces is in the source. Faces are bit masks of corners known at compile time: every pair of
+/// faces has straight-line code of its own.
 template <int Dim, int K, int L>
 class ClosestPointSearch {
 public:
@@ -205,9 +205,9 @@ private:
         best_.second_face = B;
     }
 
-    // Whether all of |offset + edges t|, |t_i| <= 1, is beyond the limit for a reason that is cheap
-    // to see where edges are nearly dependent: an edge that is nearly in the span of those before
-    // it changes what is normal to the span by no more than its own normal part.
+    // Whether all of |offset + edges t|, |t_i| <= 1, is beyond the limit, by a bound that is cheap
+    // where edges are nearly dependent: an edge that is nearly in the span of those before it moves
+    // the part of the offset normal to that span by no more than its own normal part.
     template <int N>
     [[nodiscard]] bool is_apart(const Edges<N>& edges, Vector<Dim> offset) const {
         constexpr double kRounding = 1e-12;
@@ -233,7 +233,8 @@ private:
         return apart > 0 && apart * apart >= best_.distance_squared;
     }
 
-    // The same by orthonormal columns; false where the edges are dependent to rounding.
+    // The same minimum by Gram-Schmidt orthogonalization; false where the edges are dependent to
+    // rounding.
     template <int N>
     [[nodiscard, gnu::noinline]] static bool solve_stably(const Edges<N>& edges,
                                                           const Vector<Dim>& offset,

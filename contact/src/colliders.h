@@ -56,10 +56,10 @@ public:
     /// What belongs to a collider beyond its surface, m.
     [[nodiscard]] double radius(int i) const { return is_core(i) ? core(i).radius : 0; }
 
-    /// Whether anything is to be known of pairs of the two, or of pairs within one.
+    /// Whether contacts of the two, or within one, are looked for at all.
     [[nodiscard]] bool can_meet(int a, int b) const;
 
-    /// Whether a vertex is moved from outside, if at all; those of cores are.
+    /// Whether a vertex is held or moved from outside, as those of cores are.
     [[nodiscard]] bool is_fixed(std::uint32_t vertex) const {
         return vertex >= scene_.is_fixed.size() || scene_.is_fixed[vertex];
     }

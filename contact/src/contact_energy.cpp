@@ -19,8 +19,8 @@ namespace {
 constexpr std::size_t kChunk = 1024;
 constexpr std::size_t kHessianChunk = 64;
 
-// Gradients are summed up in at most so many parts, of at least so many contacts, one after the
-// other.
+// Gradients are summed up in at most so many parts, of at least so many contacts each, which are
+// then added in their order.
 constexpr std::size_t kMaxParts = 16;
 constexpr std::size_t kMinPart = 8192;
 

@@ -42,9 +42,9 @@ template <int Dim>
                                          const SignedDistance<Dim>& distance,
                                          Filter filter);
 
-/// The contacts with energies and slopes, found in parallel and summed up.
+/// Finds energies and slopes of contacts in parallel, and their sums.
 ///
-/// @param contacts  With where they are; moved from one to the other, nothing is copied.
+/// @param contacts  Without energies; moved through, so that nothing is copied.
 template <int Dim>
 [[nodiscard]] Contacts<Dim> evaluate_all(const ContactScene<Dim>& scene,
                                          const PositionsView<Dim>& positions,

@@ -19,14 +19,15 @@ namespace pent::contact {
 
 namespace {
 
-// For rounding, and for dents too small to be bent out.
+// Room for rounding, and for dents too small to be bent out.
 constexpr double kMargin = 1.05;
 
-// A gap is of use from this multiple of the distance on: below there is no room for being bent.
+// A gap in the reference is of use from this multiple of the distance on: below there is no room
+// for the body to be bent.
 constexpr double kLeastGap = 1.2;
 
-// What cells tell of the gap is enough from this multiple on. Else it is searched for, up to the
-// next one, and no farther than this part of the mean edge, where pairs are few.
+// The bound on the gap by cells is good enough from this multiple on. Else the gap is searched for,
+// up to the next one, and no farther than this part of the mean edge, where pairs are few.
 constexpr double kEnoughGap = 1.8;
 constexpr double kMostGap = 4;
 constexpr double kMostOfEdge = 0.45;
@@ -34,9 +35,10 @@ constexpr double kMostOfEdge = 0.45;
 // Cells that a thread looks at in one go.
 constexpr std::size_t kChunk = 512;
 
-// Two simplices that share no vertex are no nearer than this, if one of them is a vertex or an edge
-// of the surface, m: on the way from there the sum of its barycentric coordinates falls from 1 to
-// 0, no faster than the steepest of all its gradients. Far too low where cells are flat.
+// A lower bound, m, of the distance of two simplices that share no vertex, one of them a vertex or
+// an edge of the surface: on the way from there to the other the sum of its barycentric coordinates
+// falls from 1 to 0, no faster than the steepest of all their gradients. Far too low where cells
+// are flat.
 template <int Dim>
 double gap_by_cells(const Simplices<1>& surface,
                     const Simplices<Dim + 1>& cells,
@@ -97,7 +99,7 @@ double gap_by_search(const Surface<Dim>& surface, const Positions<Dim>& position
         least_distance<Dim, 1, Dim>(surface, near.points_first, view, limit));
 }
 
-// By elimination: all pivots are above 0.
+// Whether elimination leaves all pivots above 0.
 template <int Dim>
 bool is_positive_definite(Block<Dim> matrix) {
     for (int k = 0; k < Dim; ++k) {
@@ -156,8 +158,8 @@ std::optional<ConvexBody<Dim>> ConvexBody<Dim>::make(std::span<const std::uint32
     return ConvexBody(cells, *std::move(reference), gap);
 }
 
-// That of the affine map which fits the middle of the paths best: any is right, the best one tells
-// most.
+// The rotation of the affine map that fits the middle of the paths best: any rotation gives a valid
+// bound, this one a good one.
 template <int Dim>
 Block<Dim> ConvexBody<Dim>::rotation(const Paths<Dim>& paths) const {
     const Eigen::Index count = reference_.cols();

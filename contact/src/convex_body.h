@@ -11,15 +11,15 @@
 
 namespace pent::contact {
 
-/// A body that is convex at rest, or up to small dents, tells from its inside, in a fraction of
-/// what a search takes, that it is nowhere near itself.
+/// Tells, for a body that is convex at rest or up to small dents, that it is nowhere near itself:
+/// from its cells, in a fraction of what a search takes.
 ///
-/// Let F be the gradient in its cells of where they are by where they are in a convex reference,
-/// and R a rotation. If the symmetric part of R^T F has no eigenvalue below c, x(a) - x(b) along
-/// R (a - b) is at least c |a - b| for any two points a and b of the reference, since the line
-/// between these runs within it [ciarlet1988]. So what is `gap` apart there is c gap apart, however
-/// the body is turned and however much it is stretched. The least eigenvalue is concave along
-/// straight paths of the vertices: what holds at both ends holds all the way.
+/// Let F be the deformation gradient of its cells from a convex reference, and R a rotation. If the
+/// symmetric part of R^T F has no eigenvalue below c, the map is strongly monotone: x(a) - x(b)
+/// along R (a - b) is at least c |a - b| for any two points a and b of the reference, since the
+/// line between these runs within it [ciarlet1988]. So what is `gap` apart there is c gap apart,
+/// however the body is turned and however much it is stretched. The least eigenvalue is concave
+/// along straight paths of the vertices: what holds at both ends holds all the way.
 template <int Dim>
 class ConvexBody {
 public:

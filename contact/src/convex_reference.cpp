@@ -17,16 +17,17 @@ namespace pent::contact {
 
 namespace {
 
-// How often all dents are bent out before the body is taken for one that is not nearly convex.
+// Sweeps over all dents before the body counts as not nearly convex.
 constexpr int kSweeps = 60;
 
-// Bending out one dent makes others: going a little too far takes fewer sweeps.
+// Over-relaxation: bending out one dent makes others, and going a little too far takes fewer
+// sweeps.
 constexpr double kRelaxation = 1.5;
 
-// Vertices go no farther than this part of the mean edge: then it was more than a dent.
+// Vertices go no farther than this part of the mean edge; beyond it, it was more than a dent.
 constexpr double kFarthest = 0.25;
 
-// Dents that rise by less than this part of the mean edge are none: so flat are sides of a box
+// Dents that rise by less than this part of the mean edge count as flat, as the sides of a box
 // whose coordinates have been rounded.
 constexpr double kFlat = 1e-6;
 
@@ -34,7 +35,7 @@ constexpr double kFlat = 1e-6;
 template <int Dim>
 using Hinge = std::array<std::uint32_t, Dim + 1>;
 
-// None unless two facets meet at every ridge.
+// All hinges of a surface; none unless two facets meet at every ridge.
 template <int Dim>
 std::vector<Hinge<Dim>> hinges_of(const Simplices<Dim>& facets) {
     struct Side {
@@ -107,7 +108,7 @@ public:
           edge_(mean_edge_length<Dim>(surface, rest)),
           hinges_(hinges_of<Dim>(surface.facets)) {}
 
-    // Moves the corners of each dent, as little as it takes, to where it is none.
+    // Moves the corners of each dent, along the gradient of its volume, to where it is none.
     bool run() {
         bool is_convex = false;
         for (int sweep = 0; sweep < kSweeps && !hinges_.empty() && !is_convex; ++sweep) {
@@ -125,7 +126,7 @@ public:
     [[nodiscard]] const Positions<Dim>& positions() const { return positions_; }
 
 private:
-    // Whether it was a dent.
+    // Bends out a hinge; returns whether it was a dent.
     bool bend(const Hinge<Dim>& hinge) {
         Corners<Dim, Dim> facet;
         for (int i = 0; i < Dim; ++i) {

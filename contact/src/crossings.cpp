@@ -49,9 +49,9 @@ struct Two {
 
 // Colliders, trees, the walk through them and the search for near pairs are those of all contact;
 // the candidates are not. Crossings are pairs of other kinds, as edges that go through facets, and
-// are asked for where a scene begins, changes or is restored, not in its steps. And what says that
-// nothing crosses is to be a witness of candidates, covers of paths and collision detection, which
-// a fault in them cannot mislead.
+// are asked for where a scene begins, changes or is restored, not in its steps. And this search is
+// to be an independent witness that nothing crosses, which no fault in candidates, covers of paths
+// or collision detection can mislead.
 template <int Dim>
 class CrossingSearch {
 public:
@@ -198,7 +198,7 @@ private:
         }
     }
 
-    // Vertices of the first that are inside the second; of an obstacle one will do.
+    // Vertices of the first that are inside the second; of an obstacle one is enough.
     void add_inside(const Two& two) {
         const Surface<Dim>& surface = colliders_.surface(two.first);
         const std::vector<std::uint8_t> inside =
@@ -217,7 +217,7 @@ private:
         }
     }
 
-    // An obstacle inside a body that nothing of is at its surface.
+    // An obstacle inside a body whose surface it does not touch.
     void add_swallowed(const Two& two) {
         const Collider body = colliders_.collider(two.second);
         const Collider obstacle = colliders_.collider(two.first);

@@ -13,7 +13,7 @@ namespace {
 // Sine of an angle below which edges of nearest faces count as dependent.
 constexpr double kDependent = 1e-10;
 
-// The edges of the active faces, orthonormalized, and how the weights move along them.
+// The edges of the active faces, orthonormalized, and how the weights change along them.
 template <int Dim>
 struct MovingWeights {
     // E = frame * triangle, columns 0 .. edges - 1.

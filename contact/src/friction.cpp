@@ -13,8 +13,8 @@ namespace {
 
 constexpr std::size_t kChunk = 1024;
 
-// A contact whose slip has turned around has the secant so many times, twice as often with every
-// further turn: enough to come to rest, and few where it slides on after all.
+// How many secants a turn around of the slip leads to, and twice as many with every further turn:
+// enough to come to rest, and few where the contact slides on after all.
 constexpr int kPatience = 4;
 
 // f1(y) / y, which is 2 / e at y = 0.

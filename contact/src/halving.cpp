@@ -39,7 +39,7 @@ int longest_side(std::span<const Item> items) {
     return longest;
 }
 
-// Of all items those of some groups.
+// Orders the items of some groups, which are a stretch of all items.
 void halve(std::span<Item> items, std::span<const std::uint32_t> begin) {
     if (begin.size() < 3) {
         return;

@@ -8,9 +8,9 @@
 
 namespace pent::contact {
 
-/// Boxes, by their places in the list, in an order in which neighbors follow each other: halved
-/// along the longest side of their centers, and each half again, down to groups. Of an odd number
-/// of groups the first half has one more. Parallel.
+/// The order of boxes, by their places in the list, in which neighbors follow each other: recursive
+/// bisection at the median along the longest side of their centers, down to groups. Of an odd
+/// number of groups the first half has one more. Parallel.
 ///
 /// @param begin  Where each group begins in that order, ascending from 0, and how many boxes there
 ///               are.

@@ -6,8 +6,8 @@
 
 #include <cstdint>
 
-// Kernels of loops over things side by side, compiled for several instruction sets: nothing in them
-// is shared with other files but plain data.
+// Kernels of loops over several things side by side (SIMD), compiled for several instruction sets:
+// nothing in them is shared with other files but plain data.
 
 namespace pent::contact {
 

@@ -4,7 +4,7 @@
 
 namespace pent::contact {
 
-/// One file each, compiled for its instruction set; see lanes.cpp for the choice.
+/// Each is in a file of its own, compiled for its instruction set; see lanes.cpp for the choice.
 template <int Dim>
 const LanesKernels<Dim>& lanes_baseline();
 template <int Dim>

@@ -11,17 +11,16 @@
 
 namespace pent::contact {
 
-/// What of two colliders, or of one and itself, can come near, and where that holds.
+/// The candidates of two colliders, or of one and itself, and the positions for which they hold.
 template <int Dim>
 struct Meeting {
     CandidatePairs pairs;
-    PathCover<Dim>
-        cover;  ///< Of the vertices of both; of none where pairs are found anew each time.
+    PathCover<Dim> cover;  ///< Of the vertices of both; of none where pairs are found each time.
 
     [[nodiscard]] std::pair<int, int> colliders() const { return {pairs.first, pairs.second}; }
 };
 
-/// Meetings, of the same colliders one at most, ascending by colliders.
+/// Meetings ascending by their colliders, one at most for the same two.
 template <int Dim>
 class Meetings {
 public:

@@ -9,7 +9,7 @@
 namespace pent::contact {
 namespace {
 
-// The axes of a patch, or four patches side by side.
+// Lanes hold the axes of one patch, or numbers of four patches.
 using Four = Pack<double, 4>;
 constexpr int kFour = 4;
 

@@ -2,7 +2,8 @@
 
 #include <cstdint>
 
-// Which simplices of two patches may be near each other, for all of their pairs side by side.
+// Which simplices of two patches may be near each other: a conservative test of all their pairs
+// side by side.
 
 namespace pent::contact {
 

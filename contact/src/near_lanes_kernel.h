@@ -98,8 +98,8 @@ public:
         return is_any;
     }
 
-    // Takes out those that are apart along a line: lines take much longer than boxes, and few boxes
-    // are near each other, so that what is left is gathered until every lane has a pair.
+    // Takes out pairs that are apart along a line. Lines take much longer than boxes, and few boxes
+    // are near each other: so what is left is gathered from all lanes, until every lane has a pair.
     bool keep_near_simplices(float distance, std::uint16_t* near) const {
         constexpr int kPairs = kLanes * kLanes;
         std::int32_t of_first[kPairs + kRegisterLanes];   // NOLINT(modernize-avoid-c-arrays)

@@ -15,14 +15,15 @@ namespace {
 
 constexpr int kRegisterLanes = kRegisterBytes / static_cast<int>(sizeof(float));
 
-// Lines that are tried for two simplices: after these few pairs are left that are not near.
+// How many lines are tried as separating axes of two simplices: after these few pairs are left that
+// are not near.
 constexpr int kApproaches = 4;
 
 using Floats = Pack<float, kRegisterLanes>;
 using Truths = Mask<float, kRegisterLanes>;
 using Numbers = Truths::Vector;
 
-// Squares of lengths below would be lost in float.
+// Squares of shorter lengths would be lost in float.
 constexpr float kMinLength = 1e-15F;
 
 // Lanes of a patch, one in each lane of a register.
@@ -73,7 +74,7 @@ struct Boxes {
         return box;
     }
 
-    // Moved.
+    // Sets them from a patch, moved by a shift.
     template <int Count>
     [[gnu::always_inline]] void set(const LanesView& patch, const float* shift) {
         for (int axis = 0; axis < Dim; ++axis) {
@@ -227,9 +228,10 @@ struct Pairs {
     Simplex<Dim, K> first[2];   // NOLINT(modernize-avoid-c-arrays)
     Simplex<Dim, L> second[2];  // NOLINT(modernize-avoid-c-arrays)
 
-    // Whether a line is found along which they are apart at both ends, hence at all times: from
-    // that through their middles on the nearest point of the hull of all differences of corners is
-    // approached [gilbert1966], and given up where it is nearer than the distance, or soon.
+    // Whether a separating line is found, along which they are apart at both ends, hence at all
+    // times. It begins through their middles; from there the nearest point of the hull of all
+    // differences of corners is approached [gilbert1966]. The search is given up where that is
+    // nearer than the distance, or after a few approaches.
     [[nodiscard, gnu::always_inline]] Truths are_apart(const Floats& distance) const {
         constexpr int kEnds = IsStill ? 1 : 2;
         Floats line[Dim];  // NOLINT(modernize-avoid-c-arrays)

@@ -11,7 +11,8 @@
 
 namespace pent::contact {
 
-/// What a search along paths finds: candidates whose distance at the end is known, and others.
+/// What a search along paths finds: candidates whose distance at the end has been measured, and
+/// others.
 struct FoundOnPaths {
     std::vector<Candidate> known;
     std::vector<Candidate> others;
@@ -52,7 +53,7 @@ struct NearOnPaths {
     double measured = 0;             ///< Up to this distances are measured, m.
 
     void operator()(std::uint32_t i, std::uint32_t j, FoundOnPaths& found) const {
-        // Tests allow for rounding: candidates have to be a superset.
+        // Room for rounding: candidates have to be a superset.
         constexpr double kRoundUp = 1 + 1e-9;
         ++found.overlaps;
         if (is_same_list && j < i) {

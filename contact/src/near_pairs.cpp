@@ -60,7 +60,8 @@ private:
         }
     }
 
-    // All of a team go through the large groups, and one through a small one with all below it.
+    // Of a team all go through large groups, and one of them alone through a small group with all
+    // below it.
     void visit_below(const BoxTree::Range& range, const BoxTree::Range& half, const Box& box) {
         if (range.count <= kShared || half.count > kShared || is_own(half)) {
             visit(half, box);

@@ -30,10 +30,10 @@ template <int Dim, int K, int L>
                                        double distance,
                                        Closest closest = Closest::Anywhere);
 
-/// Which vertices of one surface are inside another: an entry of 1 for each of surface.vertices.
+/// Which vertices of one surface are inside another: a 1 for each of surface.vertices that is.
 ///
-/// A group of vertices whose box meets no facet is on one side, and is decided by one ray.
-/// Parallel; of a team all have the same trees.
+/// A group of vertices whose box meets the box of no facet is on one side, and is decided by one
+/// ray. Parallel; of a team all have the same trees.
 ///
 /// @param vertices  Tree over boxes that hold the vertices of `surface`, in their order.
 /// @param facets    Tree over boxes that hold the facets of `around`, in their order.

@@ -35,7 +35,8 @@ SignedDistance<Dim> distance_to(const Cavity<Dim>& cavity, const Vector<Dim>& po
     return ball;
 }
 
-// So near the axis of a bowl, in parts of how far away it is, there is no way out but rounding.
+// A point this near to the axis of a bowl, relative to its distance, has no direction away from it
+// but rounding.
 constexpr double kOnAxis = 1e-12;
 
 // Above the bowl: the nearest point of the ground is on the rim.
@@ -126,8 +127,8 @@ SignedDistance<Dim> signed_distance(const ObstacleShape<Dim>& obstacle, const Ve
     return std::visit([&](const auto& shape) { return distance_to(shape, point); }, obstacle);
 }
 
-// Distances have slope one: from where one is d, nothing nearer than d along the way is in the
-// solid.
+// Sphere tracing: signed distances change no faster than the point moves, so that no point nearer
+// than d to one at distance d is in the solid.
 template <int Dim>
 bool passes_through(const ObstacleShape<Dim>& obstacle,
                     const Vector<Dim>& from,

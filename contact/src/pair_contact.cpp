@@ -15,12 +15,12 @@ namespace pent::contact {
 
 namespace {
 
-// Below this part of the distance of contact, closest points touch: the direction between them is
+// Below this part of the activation distance, closest points touch: the direction between them is
 // rounding, and that of the normals is taken.
 constexpr double kTouching = 1e-6;
 
-// Least sine of the angle at which a pair has to see the surfaces beside it, from the front or from
-// the back, to be in contact.
+// A pair is in contact only if the line between its closest points meets both surfaces at an angle
+// whose sine is above this, from the front or from the back.
 constexpr double kMinView = 0.2;
 
 // A mixed pair fades where its closest points come this near to a border, in barycentric weight:
@@ -28,20 +28,20 @@ constexpr double kMinView = 0.2;
 // surfaces are small.
 constexpr double kBorder = 0.25;
 
-// It fades, too, below this sine of the angle between its edge and the plane of its ridge: where
-// that is 0 the closest points jump, and near it they run along both as the pair turns. The faces
-// beside them hold each other by their vertices there.
+// It fades, too, below this sine of the angle between its edge and the plane of its ridge. Where
+// the two are parallel the closest points jump, and near that they run along both as the pair
+// turns; there the vertices of the faces beside them hold these apart.
 constexpr double kParallel = 0.2;
 
-// What looks crossed within one body, but is this many distances of contact apart at rest or
-// nearer, is taken for the two sides of something thin.
+// A pair within one body that looks crossed, but is no farther apart at rest than this many
+// activation distances, is taken for the two sides of something thin.
 constexpr double kThin = 3;
 
-// On which sides two simplices see each other.
+// From which sides two simplices face each other.
 template <int Dim>
 struct View {
     double side = 0;        // 1 apart, -1 crossed, 0 no contact
-    double weight = 0;      // goes to 0 where one turns aside
+    double weight = 0;      // fades to 0 where one turns sideways
     Vector<Dim> direction;  // from the second to the first, unit length; out of both if crossed
 };
 

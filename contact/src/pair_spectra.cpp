@@ -15,7 +15,7 @@ int most_of_distance(Filter filter) {
     return filter == Filter::Clamp ? Dim : 2 * Dim - 1;
 }
 
-// With a mollifier at c, the square of a volume, where it is not 1.
+// The Hessian of a contact with its mollifier at c, a squared volume, where that is not 1.
 template <int Dim>
 StencilMatrix<Dim> mollified_hessian(const DistanceEnergy& energy,
                                      const Contact<Dim>& contact,

@@ -12,7 +12,7 @@ namespace pent::contact {
 template <int Dim>
 class PairSpectra {
 public:
-    /// Room for the numbers of the Hessian of a pair, whatever it comes to.
+    /// How many numbers the Hessian of a pair has at most.
     [[nodiscard]] static std::size_t most_numbers(const Contact<Dim>& contact, Filter filter);
 
     /// @param numbers  To write to, where the Hessians have their room.

@@ -11,7 +11,7 @@
 
 namespace pent::contact {
 
-/// Where a candidate is from: its list, counted on through all lists of all meetings, and the
+/// Where a candidate is from: its list, by its place among all lists of all meetings, and the
 /// colliders that its two simplices belong to.
 struct ListPlace {
     std::uint32_t list = 0;
@@ -36,7 +36,7 @@ public:
     PassingCandidates(const PassingCandidates&) = delete;
     PassingCandidates& operator=(const PassingCandidates&) = delete;
 
-    /// How many are tested one by one; of the others their lists tell.
+    /// How many are tested one by one; the rest of a list may be culled as a whole.
     [[nodiscard]] std::int64_t count() const { return count_; }
 
     /// Calls look.operator()<K, L>(place, pair, part) for each that passes. Chunks are looked at in

@@ -5,12 +5,12 @@
 
 namespace pent::contact {
 
-/// How near a point of one and a point of another patch can be at any time, from how far they were
-/// apart earlier: no nearer than that times the stretch, less the lack.
+/// A lower bound of the distance of a point of one patch from a point of another at any time, by
+/// how far they were apart earlier: that times the stretch, less the lack.
 ///
-/// With G the mean of both maps, x - y is G (X - Y), which is no shorter than the earlier distance
-/// times the least stretch of G, and what the maps and centers lack to agree with G. That is
-/// convex in time: most at one of its ends.
+/// With G the mean of the affine maps of both, x - y is G (X - Y), which is no shorter than the
+/// earlier distance times the least stretch of G, plus what both maps and centers deviate from G.
+/// That deviation is convex in time: largest at one of its ends.
 struct PatchBound {
     double stretch = 0;
     double lack = std::numeric_limits<double>::infinity();  ///< m.
@@ -21,7 +21,7 @@ struct PatchBound {
         return stretch > 0 && stretch * earlier_distance - lack > distance;
     }
 
-    /// What this tells of moments to which another bound has led.
+    /// The bound for both in a row: this one after an earlier one.
     [[nodiscard]] PatchBound after(const PatchBound& earlier) const {
         constexpr double kMaxStretch = 1e30;  // so that products stay finite
         return stretch > 0 && earlier.stretch > 0

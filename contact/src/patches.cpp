@@ -18,11 +18,12 @@ namespace pent::contact {
 
 namespace {
 
-// Mean squared offset along the thinnest axis of a patch, over that along the next: below, it is
-// flat. Then, and only then, what lies across it is taken to move without stretch.
+// A patch whose mean squared offset along its thinnest axis is below this part of that along the
+// next is flat: its vertices do not tell how it stretches across, which is taken as no stretch.
 constexpr double kFlat = 0.05;
 
-// The same along the second thinnest axis, over the longest: below, no map can be told.
+// With the same along the second thinnest axis below this part of that along the longest no map can
+// be fit.
 constexpr double kSlender = 1e-6;
 
 // What rounding may add to lengths, over the size of coordinates.
@@ -31,8 +32,8 @@ constexpr double kRounding = 1e-12;
 // Patches that one thread fits at a time.
 constexpr std::size_t kChunk = 64;
 
-// Where the bound on the smallest eigenvalue of a map's metric is at least this part of their mean,
-// it is good enough.
+// Where the lower bound of the smallest eigenvalue of a map's metric is at least this part of the
+// mean of all, it is good enough.
 constexpr double kTight = 0.7;
 
 template <int Dim>
@@ -46,8 +47,8 @@ Vector<Dim> across(const Map<Dim>& axes) {
     return facet_normal<Dim>(corners).stableNormalized();
 }
 
-// The smallest singular value of a map, or a bound from below: no eigenvalue of A^T A is farther
-// below their mean than all others can make up for.
+// The smallest singular value of a map, or a lower bound: the least that an eigenvalue of A^T A can
+// be, by the mean and the variance of all.
 template <int Dim>
 double least_stretch(const Map<Dim>& map) {
     const Map<Dim> metric = map.transpose() * map;
@@ -190,7 +191,7 @@ std::vector<PatchMotion<Dim>> Patches<Dim>::motions(const PatchPlaces<Dim>& earl
     return motions;
 }
 
-// With D what a map A changes by, (A + t D)^T (A + t D) is the mean of those at both ends, weighted
+// With D the change of a map A, (A + t D)^T (A + t D) is the mean of those at both ends, weighted
 // by time, less t (1 - t) D^T D.
 template <int Dim>
 std::vector<PatchMotion<Dim>> Patches<Dim>::motions(const PatchPlaces<Dim>& earlier,

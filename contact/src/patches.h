@@ -34,8 +34,8 @@ struct PatchPlaces {
     }
 };
 
-/// How a patch of a surface has moved from one moment, on straight paths from one place to another.
-/// A point X of its simplices is at
+/// How a patch of a surface has moved since an earlier moment, on straight paths from one place to
+/// another. A point X of its simplices is at
 ///
 ///     center + map (X - earlier_center) + d,   |d| <= deviation
 ///
@@ -76,7 +76,7 @@ private:
     std::vector<double> numbers_;
 };
 
-/// Divides a surface to tell how its parts move.
+/// How the patches of a surface move.
 template <int Dim>
 class Patches {
 public:

@@ -51,8 +51,8 @@ Vector<Dim> PathCover<Dim>::mean_of_sum(const Vector<Dim>& sum) const {
     return sum / std::max<double>(1, static_cast<double>(vertices_.cols()));
 }
 
-// The time at which the paths are next to the positions in the sense of least squares is as good as
-// any. It is the same for positions that are shifted, since ways add up to none.
+// The time at which the paths are nearest to the positions in the sense of least squares, as good a
+// choice as any. It is the same where all positions are shifted, since ways add up to zero.
 template <int Dim>
 bool PathCover<Dim>::covers(const PositionsView<Dim>& positions) const {
     Vector<Dim> sum = Vector<Dim>::Zero();
@@ -82,7 +82,8 @@ double PathCover<Dim>::squared_from_end(const PositionsView<Dim>& positions,
     return (positions.col(vertices_(0, k)) - mean - start_.col(k) - way_.col(k)).squaredNorm();
 }
 
-// How far it is along a straight way is convex, whatever the shift on it: most at one of its ends.
+// The distance from the end of a path is convex along a straight way, whatever the shift on it:
+// largest at one of its ends.
 template <int Dim>
 void PathCover<Dim>::find_displacement(const PositionsView<Dim>& from,
                                        const PositionsView<Dim>& to,

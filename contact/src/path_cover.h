@@ -9,8 +9,8 @@
 
 namespace pent::contact {
 
-/// Straight paths of some vertices, and how far each may leave its own: the positions that a list
-/// of pairs holds for.
+/// Straight paths of some vertices, and how far each may leave its own: the positions for which a
+/// list of pairs is complete.
 ///
 /// Only how vertices move against one another matters to pairs. So paths, and the ways that
 /// vertices have gone from them, are measured less the mean of all: what flies or falls as a whole

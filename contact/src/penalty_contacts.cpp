@@ -24,7 +24,7 @@ struct NearPoint {
     double distance_squared = 0;
 };
 
-// What of some candidates is near now, ascending.
+// The candidates that are near now, ascending.
 struct NearNow {
     const CandidatePairs* bodies = nullptr;
     std::vector<NearPoint> points_first;

@@ -11,11 +11,12 @@ namespace pent::contact {
 
 namespace {
 
-// Pairs are listed up to this many times the distance of contact: the farther, the more a body may
-// be bent before there has to be another reference, and the longer the lists.
+// Pairs are listed up to this many times the activation distance: the farther, the more a body may
+// be bent before they have to be listed anew, and the longer the lists.
 constexpr double kListed = 2;
 
-// The same, at most, over the mean edge; and the least that is of use.
+// Lists go no farther than this part of the mean edge, but at least to this many times the
+// activation distance, below which they are of no use.
 constexpr double kMaxOfEdge = 0.6;
 constexpr double kMinListed = 1.2;
 

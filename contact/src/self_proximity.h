@@ -14,18 +14,18 @@
 
 namespace pent::contact {
 
-/// Finds which pairs of one body are near now, or come near each other on their way, in less than
-/// looking at all whose boxes overlap: most of these are neighbors, which are near each other at
-/// rest and stay as they are.
+/// Finds which pairs of one body are near now, or come near each other on their way, at less cost
+/// than a look at all whose boxes overlap: most of these are neighbors, which are near each other
+/// at rest and stay as they are.
 ///
-/// The surface is divided into patches. Of two patches that come near, all pairs are listed that
+/// The surface is divided into patches. For two patches that come near, all pairs are listed that
 /// are within a listed distance, larger than what is asked for. How both patches have moved from
-/// search to search, as affine maps and what these lack, bounds how near all others can be, however
-/// far and strongly the body is bent (PatchBound). The bound weakens with each search; where it
-/// fails the pairs of these patches are listed anew, and looked at one by one where it would fail
-/// again at once.
+/// search to search, as affine maps and deviations from these, bounds how near all others can be,
+/// however far and strongly the body is bent (PatchBound). The bound weakens with each search;
+/// where it fails the pairs of these patches are listed anew, or looked at one by one where it
+/// would fail again at once.
 ///
-/// What is found is the same whatever was asked before, but for pairs that come near at no time.
+/// What is found does not depend on what was asked before, but for pairs that come near at no time.
 template <int Dim>
 class SelfProximity {
 public:

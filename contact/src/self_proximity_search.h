@@ -59,7 +59,8 @@ public:
           test_(test),
           found_(chunks()) {}
 
-    // Looks where bounds hold; returns for how many pairs of patches none does.
+    // Looks at the lists of pairs of patches whose bounds hold; returns for how many pairs of
+    // patches none does.
     std::size_t look_at_lists() {
         for_each_row([&](std::size_t a, Found& found) { look_at_lists(a, found); });
         std::size_t unknown = 0;
@@ -69,8 +70,8 @@ public:
         return unknown;
     }
 
-    // Lists all others where paths start, and looks at them; without a list at those that would
-    // need another at once.
+    // Lists the pairs of all others where paths start, and looks at them; looks without a list at
+    // those that would need another one at once.
     void look_at_others() {
         for_each_row([&](std::size_t a, Found& found) { look_at_others(a, found); });
     }
@@ -155,7 +156,8 @@ private:
         }
     }
 
-    // The next search is taken to find the patches moved as this one does.
+    // Whether a new list would fail at once is told by the motion of this search, as that of the
+    // next is taken to be alike.
     void look_at_others(std::size_t a, Found& found) {
         Listed listed;
         const std::span<const std::uint32_t> unknown = rows_[a].unknown;
@@ -197,8 +199,8 @@ private:
         return bound.is_apart(all_.listed_distance_, near(a, b));
     }
 
-    // How near simplices of two patches count as near, m: what vertices may leave their paths by
-    // comes on top.
+    // The distance within which simplices of two patches count as near, m: with what vertices may
+    // leave their paths by.
     [[nodiscard]] double near(std::size_t a, std::uint32_t b) const {
         return activation_distance_ + first_patches().inflation[a] + second_patches().inflation[b];
     }
@@ -307,8 +309,8 @@ private:
         }
     }
 
-    // Leaves out the pairs of no list, of those there were and those that come behind them. There
-    // is room for some more then, so that most new lists are put behind the old ones.
+    // Packs the pairs of lists, old ones and those to be put behind them, without the pairs that
+    // are in no list. Leaves some room, so that most new lists can be put behind the old ones.
     static void pack(Row& row, const std::vector<Candidate>& behind) {
         std::size_t count = 0;
         for (const Known& known : row.known) {

@@ -11,7 +11,7 @@ namespace pent::contact {
 
 namespace {
 
-// Orthonormal columns whose sums are 0: differences of points, from which translations are gone.
+// Orthonormal columns whose sums are 0: a basis of differences of points, without translations.
 template <int Dim>
 Eigen::Matrix<double, Dim + 1, Dim> differences() {
     Eigen::Matrix<double, Dim + 1, Dim> columns = Eigen::Matrix<double, Dim + 1, Dim>::Zero();

@@ -28,13 +28,13 @@ struct Step {
     const Positions<Dim> motion;
 };
 
-// The least fraction that any thread has found so far: it only saves work, since what is equal to
-// it is looked at to the end.
+// The least fraction that any thread has found so far. It only saves work and decides nothing: a
+// fraction equal to it is still found exactly.
 class SharedLimit {
 public:
     explicit SharedLimit(double limit) : least_(limit) {}
 
-    // The most that is of interest to a thread that has found `own`.
+    // The limit for a thread that has found `own`: just above the least.
     [[nodiscard]] double most(double own) const {
         return std::nextafter(std::min(least_.load(std::memory_order_relaxed), own), 2.0);
     }
@@ -101,7 +101,7 @@ struct LeastBound {
     }
 };
 
-// What a candidate allows; 1 or more than `most` where that is more.
+// The fraction of the step that a candidate allows; 1 or more than `most` where that is more.
 template <int Dim, int K, int L>
 double fraction_of(const Colliders<Dim>& colliders,
                    const ListPlace& place,
@@ -193,8 +193,8 @@ LeastBound least_of_all(const LeastBound& own, const SharedWork& shared) {
     return least;
 }
 
-// What pairs allow, if that is less than a part of the step; else that part, of no pair. They are
-// searched for on that part alone.
+// The fraction that pairs allow, if that is less than a part of the step; else that part, of no
+// pair. Pairs are searched for on that part alone.
 template <int Dim>
 LeastBound least_of_pairs(Candidates<Dim>& candidates,
                           const Step<Dim>& step,
@@ -244,7 +244,8 @@ StepLimit find_step_limit(Candidates<Dim>& candidates,
             least.take(bound_of<Dim>(candidates, o, vertices, step, least.fraction()), o);
         }
     }
-    // What is behind a surface of an obstacle need not be searched.
+    // Where the surface of an obstacle stops the step, pairs that are met later need not be
+    // searched.
     const LeastBound of_obstacles = least_of_all(least, candidates.shared());
     least = least_of_pairs<Dim>(candidates, step, to, of_obstacles.fraction());
     StepLimit limit;

@@ -18,7 +18,7 @@
 
 namespace pent::contact {
 
-/// Simplices of one kind in patches, and where these go on some paths.
+/// The simplices of one kind in patches, and where these go on some paths.
 template <int Dim>
 struct PatchesOnPaths {
     PatchPartition partition;

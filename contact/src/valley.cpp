@@ -13,8 +13,8 @@ namespace pent::contact {
 
 namespace {
 
-// Shares are exchanged until no exchange would make d less at a rate above this part of it, which
-// is above rounding, or so many times.
+// Shares are exchanged until no exchange would lower d at a rate above this part of it, which is
+// above rounding, or so many times.
 constexpr double kBalanced = 1e-12;
 constexpr int kMaxExchanges = 1000;
 
@@ -25,7 +25,7 @@ double felt_distance(const Contact<Dim>& contact, double eps) {
     return contact.distance + (1 - contact.gain) * (eps - contact.distance);
 }
 
-// What the shares make of all distances and directions.
+// The mean distance and direction by the shares, and d from them.
 template <int Dim>
 struct Mean {
     double distance = 0;                          // m
@@ -84,9 +84,9 @@ bool exchange(const Mean<Dim>& mean, std::span<Contact<Dim>> each) {
     return true;
 }
 
-// Makes of a contact its part of the gradient of d: directions of distances turn as vertices move,
-// by which d changes as well. Where the nearest point of the facet is at its border, within a face,
-// the direction turns about that.
+// Makes a contact give its part of the gradient of d: the directions of distances turn as vertices
+// move, which changes d as well. Where the nearest point of the facet is on its border, in the
+// interior of a face, the direction turns about that face.
 template <int Dim>
 void take_part(const Mean<Dim>& mean, const PositionsView<Dim>& positions, Contact<Dim>& contact) {
     const Vector<Dim> alpha = -contact.weights.template tail<Dim>();

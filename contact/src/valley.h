@@ -21,9 +21,9 @@ namespace pent::contact {
 /// of the nearest facet has no share, since d_1 <= d_i u_i . u_1 there: so flat and bulging
 /// surfaces keep the least distance.
 ///
-/// A facet whose contact has faded below that of the nearest one, to a part r of its energy,
-/// counts as one that is as far away as that energy tells: eps - sqrt(r) (eps - d_i) is its d_i
-/// above. So it comes and goes evenly.
+/// A facet whose contact has faded relative to that of the nearest one, to a part r of its energy,
+/// counts as one that is as far away as that energy tells: its d_i above is eps - sqrt(r) (eps -
+/// d_i). So it comes and goes continuously.
 ///
 /// @param contacts   From `first` on those of one vertex outside, with the penalty: with each facet
 ///                   nearer than eps, the nearest first. Of these stay the ones that have a share:

@@ -90,8 +90,9 @@ private:
         }
         const Shadow normal = normal_to(edges);
         const Shadow start = project(start_);
-        // Of two copies of a mesh, one behind the other, corners see corners. All ridges there have
-        // to agree, more of them than two, which they do where the side is exactly 0.
+        // A point may lie exactly in line with corners, as with two copies of a mesh, one behind
+        // the other. There more than two ridges meet and all have to agree, which they do where the
+        // side is exactly 0.
         const bool is_at_corner = std::any_of(
             ridge.begin(), ridge.end(),
             [&](std::uint32_t corner) { return project(positions.col(corner)) == start; });

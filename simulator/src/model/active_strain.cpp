@@ -22,10 +22,11 @@ namespace {
 
 constexpr std::int32_t kNoShape = -1;
 
-// Part of a pulse in which it rises, and in which it falls.
+// The part of a pulse in which it rises, and the same in which it falls.
 constexpr double kFlank = 0.2;
 
-// Gradients of a distance have length 1 but where it begins.
+// The gradient of a distance has length 1, but at its sources, where it has no direction: shorter
+// ones count as zero.
 constexpr double kNoDirection = 1e-6;
 
 double smooth(double s) {
@@ -33,12 +34,12 @@ double smooth(double s) {
     return t * t * (3 - 2 * t);
 }
 
-// The elements of a body that are here, as a mesh: its cells as Bodies has them, or its quadratic
-// cells as if their edges were straight.
+// The elements of a body that this rank has, as a mesh: its cells in the order of Bodies, or its
+// quadratic cells as if their edges were straight.
 template <int Dim>
 struct BodyElements {
     SimplexMesh<Dim> mesh;
-    std::vector<std::uint32_t> numbers;  // of cells of the body's mesh that stand for them
+    std::vector<std::uint32_t> numbers;  // the cell of the body's mesh that stands for each
 };
 
 template <int Dim>
@@ -55,8 +56,8 @@ BodyElements<Dim> elements_of(const Bodies<Dim>& bodies, std::size_t body) {
             bodies.quadratic.nodes.template topRows<Dim + 1>().middleCols(range.begin, range.size))
                      : Simplices<Dim + 1>(bodies.cells().middleCols(range.begin, range.size));
     elements.mesh.cells.array() -= static_cast<std::uint32_t>(bodies.first_vertex[body]);
-    // A cell stands for itself, the first child for a quadratic one; parts have what cells are
-    // labeled with in the order of Bodies.
+    // A cell stands for itself, for a quadratic one its first child. Parts of meshes have labels in
+    // the order of Bodies, whole meshes in their own.
     elements.numbers.resize(static_cast<std::size_t>(range.size));
     std::vector<std::uint32_t> labeled(elements.numbers.size());
     for (Eigen::Index i = cells.begin + cells.size; i-- > cells.begin;) {
@@ -78,7 +79,7 @@ BodyElements<Dim> elements_of(const Bodies<Dim>& bodies, std::size_t body) {
     return elements;
 }
 
-// The distance of every vertex at elements from what an activation says.
+// The distance of every vertex of elements from what away_from selects.
 template <int Dim>
 Eigen::VectorXd distances(const Activation& activation,
                           const Bodies<Dim>& bodies,

@@ -12,7 +12,8 @@
 
 namespace pent::simulator {
 
-/// What the activations of a scene make of its elements at a time: Fa of each, see Activation.
+/// The active strain of the elements of a scene at a time, by its activations: Fa of each, see
+/// Activation.
 ///
 /// An element is a cell of Bodies, or a quadratic cell where the bodies have been made for these.
 /// Where several activations select it their Fa are multiplied, the first one acting first.
@@ -34,14 +35,14 @@ public:
 
     [[nodiscard]] bool is_empty() const { return muscles_.empty(); }
 
-    /// Shapes are those of a time, s, from now on. Returns whether any has changed, on any rank.
+    /// Makes shapes those of a time, s. Returns whether any has changed, on any rank.
     [[nodiscard]] bool set_time(const Workers& workers, double time);
 
     /// Null for an element that no activation selects.
     [[nodiscard]] const Shape* of_element(Eigen::Index element) const;
     [[nodiscard]] const Shape* of_cell(Eigen::Index cell) const;  ///< Of Bodies.
 
-    /// Bodies of which a shape is another at one time than at another.
+    /// Bodies of which a shape differs between two times.
     [[nodiscard]] std::vector<std::size_t> changing_bodies(double from, double to) const;
 
 private:
@@ -71,8 +72,8 @@ private:
     std::optional<double> time_;  // that shapes are of, s
 };
 
-/// How much of an activation is there, for an element that is so many periods late: 0 to 1, or what
-/// keyframes say.
+/// The signal of an activation, for an element that is so many periods late: 0 to 1, times the
+/// factor of keyframes.
 [[nodiscard]] double signal_at(const Activation& activation, double time, double delay);
 
 /// Fa of an activation by its signal and the direction of a fiber, zero where there is none.

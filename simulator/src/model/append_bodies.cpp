@@ -15,9 +15,9 @@ namespace pent::simulator {
 
 namespace {
 
-// Some things of a body, those of one material after those of another.
+// The order of the cells or elements of a body by their materials.
 struct SortedByMaterial {
-    std::vector<Eigen::Index> order;  // else as they were
+    std::vector<Eigen::Index> order;  // within a material as they were
     std::vector<Eigen::Index> first;  // materials + 1 entries
 };
 
@@ -36,7 +36,8 @@ SortedByMaterial sort_by_material(const std::vector<std::uint16_t>& materials, s
     return sorted;
 }
 
-// Appends a range for each material of a body, of things that are behind `begin` ones of others.
+// Appends a range for each material of a body, whose cells or elements follow `begin` ones of
+// others.
 void append_ranges(const Body& body,
                    std::size_t place,
                    const std::vector<Eigen::Index>& first,

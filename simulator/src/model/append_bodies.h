@@ -7,7 +7,7 @@
 
 namespace pent::simulator {
 
-/// The quadratic cells that the cells of a mesh, or of a part of one, make up.
+/// The quadratic cells that the cells of a mesh, or of a part of one, are the children of.
 template <int Dim>
 struct MadeQuadratic {
     QuadraticSimplices<Dim> nodes;  ///< Of the mesh.

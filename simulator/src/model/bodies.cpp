@@ -14,7 +14,7 @@
 
 namespace pent::simulator {
 
-// Ranks that have the cells of their vertices alone find the masses of these, and tell the others.
+// A rank has all cells of its own vertices: it finds the masses of these, and tells the others.
 template <int Dim>
 void lump_masses(const Scene& scene, Bodies<Dim>& bodies) {
     Eigen::Matrix<double, 1, Eigen::Dynamic> masses =

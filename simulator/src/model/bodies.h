@@ -42,8 +42,9 @@ struct Bodies {
         return joined_rest ? *joined_rest : meshes.front().positions;
     }
 
-    /// Vertices counted through; of a body with regions those of each one after the other. Ranks
-    /// may have those of their vertices alone: see keep_near_cells().
+    /// Corners by vertices of all bodies counted through. Cells are in the order of bodies, in one
+    /// with regions in that of these. Ranks may have those of their vertices alone: see
+    /// keep_near_cells().
     [[nodiscard]] const Simplices<Dim + 1>& cells() const {
         return joined_cells ? *joined_cells : meshes.front().cells;
     }

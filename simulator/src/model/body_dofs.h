@@ -16,7 +16,7 @@ template <int Dim>
                                  const HeldVertices<Dim>& held,
                                  const std::vector<bool>& is_in);
 
-/// The same vertices in an order that is one on all ranks.
+/// The same vertices in an order that all ranks share.
 template <int Dim>
 [[nodiscard]] DofMap number_dofs_alike(const Bodies<Dim>& bodies,
                                        const HeldVertices<Dim>& held,

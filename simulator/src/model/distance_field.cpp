@@ -45,12 +45,13 @@ CellsAtVertices cells_at_vertices(const SimplexMesh<Dim>& mesh) {
     return at;
 }
 
-// When a plane wave that passes some points at given times arrives at another; infinite if it does
-// not come from between them.
+// When a plane wave that passes some points at given times arrives at another: the local solver of
+// fast marching. Infinite if it does not come from between them.
 //
-// Its gradient g, of length 1, lies in the span of V, the ways from the points: V^T g = T - t. It
-// comes through the point between them that the weights of g = V w say, which is where the way to
-// it and from there is shortest: an error in the weights counts to second order alone.
+// The gradient g of its time, of length 1, lies in the span of V, the ways from the points, and has
+// V^T g = T - t. The weights w of g = V w tell through which point between them the wave comes. The
+// result is the way to that point and from there: as that is the shortest, an error in the weights
+// counts to second order alone.
 template <int Dim>
 double arrival(const Eigen::Matrix<double, Dim, Eigen::Dynamic, 0, Dim, Dim>& ways,
                const Eigen::Matrix<double, Eigen::Dynamic, 1, 0, Dim, 1>& times) {
@@ -77,8 +78,8 @@ double arrival(const Eigen::Matrix<double, Dim, Eigen::Dynamic, 0, Dim, Dim>& wa
     return first + parts.dot(t) + (ways * parts).norm();
 }
 
-// Distances as they fall. A vertex that has fallen is settled when it has been gone through: it is
-// in no arrival before that, and counts in one with whatever is settled later.
+// Fast marching: distances as they fall. A vertex whose distance has fallen is in the queue until
+// it is settled; only then do waves pass through it, with whatever is settled later.
 template <int Dim>
 class Front {
 public:
@@ -96,7 +97,7 @@ public:
         queue_.emplace(time, vertex);
     }
 
-    // Until all is settled.
+    // Goes on until all is settled.
     void march() {
         while (!queue_.empty()) {
             const auto [time, next] = queue_.top();
@@ -138,7 +139,7 @@ private:
                 is_obtuse = is_obtuse || way.dot(x.col(vertex) - x.col(corner)) < 0;
             }
         }
-        // Ways that meet at no obtuse angle lead to nothing that is earlier than where they begin.
+        // Where ways meet at no obtuse angle nothing arrives earlier than where it comes from.
         if (!is_obtuse && times_[vertex] <= times_[through]) {
             return kUnknown;
         }

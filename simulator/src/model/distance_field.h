@@ -14,11 +14,11 @@ namespace pent::simulator {
 /// there is none. Of ranks each knows it of the corners of its own cells, wherever ways lead.
 ///
 /// Every vertex has the least of what waves through the facets opposite to it, in its cells, bring
-/// it: the way to a point of a facet, linear between its corners, and the straight line from there
-/// [bornemann2006], here by the plane waves of [kimmel1998] in cells of any dimension. That has one
-/// solution, in whatever order vertices are taken. By fast marching they are in increasing order;
-/// one that falls behind the front, as it may where angles are obtuse, or by what another rank has
-/// found, is gone through again, until nothing falls.
+/// it: the distance at a point of a facet, linear between its corners, and the straight line from
+/// there [bornemann2006], here by the plane waves of [kimmel1998] in cells of any dimension. That
+/// has one solution, in whatever order vertices are taken. Fast marching takes them in increasing
+/// order of their distances; one whose distance falls after it was taken, as it may where angles
+/// are obtuse, or by what another rank has found, is taken again, until nothing falls.
 ///
 /// @param sources  At least one, on all ranks the same.
 template <int Dim>

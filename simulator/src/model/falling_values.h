@@ -11,9 +11,10 @@
 
 namespace pent::simulator {
 
-/// Numbers of the vertices of a mesh that only ever fall, each found by the rank of its vertex from
-/// those of the corners of its cells: distances, depths. Where a rank has finished with what it
-/// knows it takes over what others have found, and goes on, until nothing falls on any of them.
+/// Numbers of the vertices of a mesh that only ever fall until they are right (distances, depths),
+/// each found by the rank that owns the vertex from those at the corners of its cells. Where a rank
+/// has finished with what it knows it takes over what others have found, and goes on, until nothing
+/// falls on any of them.
 class FallingValues {
 public:
     template <int Dim>
@@ -37,7 +38,7 @@ private:
 
     const Ranks* ranks_ = nullptr;
     std::vector<std::uint32_t> own_;     // vertices of this rank
-    std::vector<std::uint32_t> ghosts_;  // corners here of others
+    std::vector<std::uint32_t> ghosts_;  // vertices of others at cells of this rank
     std::unique_ptr<GhostExchange> exchange_;
     Eigen::VectorXd columns_;  // of own vertices, then of ghosts
 };

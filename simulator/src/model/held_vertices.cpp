@@ -26,7 +26,8 @@ std::uint64_t first_step_from(double time, double dt) {
     return step < 1e18 ? static_cast<std::uint64_t>(std::max(step, 0.0)) : kNever;
 }
 
-// A keyframe that a constraint is past when it takes its vertices up would be a jump, or nothing.
+// A constraint that takes hold of its vertices after its first keyframe would make them jump, or
+// ignore it.
 void refuse_early_keyframes(const Constraint& constraint, double start, double dt) {
     for (const Motion& motion : constraint.motion) {
         if (!motion.keyframes.empty() && is_by(motion.keyframes.front().time, start, dt)) {
@@ -39,7 +40,7 @@ void refuse_early_keyframes(const Constraint& constraint, double start, double d
     }
 }
 
-// What is left of a constraint's motions where its vertices are taken up.
+// What is left of a constraint's motions when it takes hold of its vertices.
 std::vector<Motion> path_from(double start, bool begins_later, std::vector<Motion> motions) {
     std::erase_if(motions, [&](const Motion& motion) { return motion.to <= start; });
     for (Motion& motion : motions) {
@@ -48,7 +49,7 @@ std::vector<Motion> path_from(double start, bool begins_later, std::vector<Motio
     return motions;
 }
 
-// What each motion of a set turns about, by where the set was taken up.
+// Finds what each motion of a set turns about, by where the set was taken hold of.
 template <int Dim>
 void center_motions(DirichletSet<Dim>& set) {
     Vector<Dim> sum = Vector<Dim>::Zero();
@@ -58,7 +59,7 @@ void center_motions(DirichletSet<Dim>& set) {
     set.motions = center<Dim>(set.path, sum / static_cast<double>(set.places.cols()));
 }
 
-// Takes up a set where it is.
+// Takes hold of a set where it is.
 template <int Dim>
 void take_up(const Positions<Dim>& positions, DirichletSet<Dim>& set) {
     for (std::size_t i = 0; i < set.vertices.size(); ++i) {
@@ -92,8 +93,8 @@ DirichletSet<Dim> make_set(const Constraint& constraint,
     return set;
 }
 
-// Whether one constraint lets go before another takes hold: by their times, so that a scene that is
-// right stays so with other steps.
+// Whether one constraint lets go before another takes hold: by their times, too, so that a scene
+// that is right stays so with another length of steps.
 bool does_end_before(const Constraint& first, const Constraint& then, double dt) {
     return is_by(first.to, then.from, dt)
            && first_step_from(first.to, dt) <= first_step_from(then.from, dt);
@@ -169,7 +170,6 @@ HeldVertices<Dim>::HeldVertices(const Scene& scene, const Bodies<Dim>& bodies)
     mark();
 }
 
-// Marks what is held in the step.
 template <int Dim>
 Grips HeldVertices<Dim>::grips() const {
     Grips grips(is_held_.size(), kNoGrip);
@@ -187,6 +187,7 @@ Grips HeldVertices<Dim>::grips() const {
     return grips;
 }
 
+// Marks what is held in the step.
 template <int Dim>
 void HeldVertices<Dim>::mark() {
     is_held_.assign(is_held_.size(), false);
@@ -208,7 +209,7 @@ std::vector<std::size_t> HeldVertices<Dim>::hold(std::uint64_t step,
         if (set.is_held(step) != is_held(set)) {
             changed.push_back(set.body);
         }
-        // Again where the step was refused: a host may have put the body elsewhere since.
+        // Once more where the step was refused: a host may have put the body elsewhere since.
         if (step == set.first_step && set.begins_later()) {
             take_up<Dim>(positions, set);
         }

@@ -40,8 +40,8 @@ struct HostHolds {
     double end = 0;
 };
 
-/// Which vertices are held, by constraints or by a host, and where: what of the bodies of a scene
-/// changes while a simulation runs. It has one owner; nobody else keeps a pointer to it.
+/// Which vertices are held, by constraints or by a host, and where: all that changes of the bodies
+/// of a scene while a simulation runs. It has one owner; nobody else keeps a pointer to it.
 template <int Dim>
 class HeldVertices {
 public:
@@ -70,14 +70,16 @@ public:
 
     [[nodiscard]] const HostHolds<Dim>& of_host() const { return of_host_; }
 
-    /// Holds what is held in a step, which may be any; what begins to be held in it is taken up
-    /// where it is. Returns the bodies of which something is held or free now that was not before.
+    /// Holds what is held in a step, which may be any; takes hold, where they are, of vertices that
+    /// constraints begin to hold in it. Returns the bodies of which something is held or free now
+    /// that was not before.
     ///
     /// @param positions  Dim x vertices: where the step begins, m.
     [[nodiscard]] std::vector<std::size_t> hold(std::uint64_t step,
                                                 const Positions<Dim>& positions);
 
-    /// Where sets that begin later have been taken up, see Snapshot::hold_places.
+    /// Where constraints that begin later have taken hold of their vertices, see
+    /// Snapshot::hold_places.
     [[nodiscard]] Positions<Dim> places() const;
 
     /// Puts them back, as many as places() gives.
@@ -87,7 +89,7 @@ public:
     [[nodiscard]] bool hold_for_host(std::vector<std::uint32_t> vertices,
                                      const Positions<Dim>& targets);
 
-    /// From where to where, and when, what a host holds is taken in the next step.
+    /// Sets from where, and when, what a host holds is taken to its targets in the next step.
     ///
     /// @param positions   Dim x vertices: where the step begins, m.
     /// @param begin, end  s.

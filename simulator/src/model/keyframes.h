@@ -26,17 +26,17 @@ struct CurveState {
     return time > other * (1 + 1e-12);
 }
 
-/// A cubic between each two of at least one point, constant before the first and behind the last.
+/// A cubic Hermite curve through at least one point, constant before the first and behind the last.
 ///
-/// Slopes that are not given are zero at both ends and at every point that is no lower or no higher
-/// than both its neighbors, so that between two such the curve never leaves the range of their
-/// values [fritsch1984]. At the last point it has the slope of that.
+/// Slopes that are not given are zero at both ends and at local extrema, so that between two of
+/// these the curve is monotone and never leaves the range of their values [fritsch1984]. At the
+/// last point the curve has the slope of that.
 ///
 /// @param point  point(i) is the i-th of `count` CurvePoints; their times ascend.
 template <typename Point>
 [[nodiscard]] CurveState curve_at(std::size_t count, const Point& point, double time);
 
-/// The factor at a time, s: such a curve; 1 without any keyframe.
+/// The factor at a time, s, by such a curve; 1 without any keyframe.
 [[nodiscard]] double factor_at(const std::vector<Keyframe>& keyframes, double time);
 
 namespace detail {

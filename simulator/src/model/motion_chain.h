@@ -15,7 +15,8 @@ struct CenteredMotion {
     Vector<Dim> about;
 };
 
-/// Finds what each motion turns about: what it says, or where those before it have taken `middle`.
+/// Finds what each motion turns about: what it says, or the point to which those before it have
+/// taken `middle`.
 template <int Dim>
 [[nodiscard]] std::vector<CenteredMotion<Dim>> center(const std::vector<Motion>& motions,
                                                       const Vector<Dim>& middle);
@@ -27,11 +28,11 @@ public:
     /// @param time  s.
     MotionChain(const std::vector<CenteredMotion<Dim>>& motions, double time);
 
-    /// Takes a point of t = 0 there, m; its velocity too unless that is null, m/s. A motion at rest
-    /// keeps the point to the bit.
+    /// Moves a point from where it is at t = 0, m; sets its velocity, too, unless that is null,
+    /// m/s. A motion at rest keeps the point to the bit.
     void move(Vector<Dim>& point, Vector<Dim>* velocity) const;
 
-    /// How they have turned whatever goes with them.
+    /// The rotation by all of them together.
     [[nodiscard]] Matrix<Dim> rotation() const;
 
 private:

@@ -62,7 +62,7 @@ std::uint32_t parent_of(const Bodies<Dim>& bodies, Eigen::Index cell) {
     return parents.empty() ? 0 : parents[static_cast<std::size_t>(cell)];
 }
 
-// Quadratic cells that are parents of cells that have been kept, which name them anew.
+// Drops quadratic cells that no kept cell is a child of, and numbers the others anew.
 template <int Dim>
 void keep_parents(QuadraticCells<Dim>& quadratic) {
     std::vector<std::uint32_t> places(static_cast<std::size_t>(quadratic.nodes.cols()), 0);

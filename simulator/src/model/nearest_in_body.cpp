@@ -13,7 +13,7 @@ namespace pent::simulator {
 
 namespace {
 
-// Vertices that ranks tell one another of at a time.
+// Vertices that are searched for at a time, which bounds what ranks gather.
 constexpr std::size_t kPiece = 65536;
 
 // The cells of a body that are searched here: each of them on one rank.
@@ -43,8 +43,8 @@ void take_least(const Sharing& sharing, std::vector<double>& values) {
     }
 }
 
-// A vertex, where the cell would be if all were here (its range, and its place in the mesh), and
-// the point in it.
+// What ranks gather: a vertex, where its cell would be if all were here (its range, and its number
+// in the mesh), the distance, and the point in the cell.
 template <int Dim>
 using Row = std::array<double, 4 + 2 * (Dim + 1)>;
 
@@ -73,7 +73,7 @@ MaterialPoint<Dim> point_of(const Row<Dim>& row) {
     return point;
 }
 
-// Of some vertices, each at its place in `found`.
+// Finds the nearest points of some vertices, each at its place in `found`.
 template <int Dim>
 void search(const Workers& workers,
             const Bodies<Dim>& bodies,

@@ -17,15 +17,16 @@ namespace {
 template <int Dim>
 using Corners = Eigen::Matrix<double, Dim, Dim + 1>;
 
-// Barycentric coordinates in the face of these corners (bit i: corner i) of the foot of a point
-// upon it, all of the cell.
+// The projection of a point onto the affine hull of a face (bit i of the mask: corner i), as
+// barycentric coordinates of the cell: 0 for corners that the face lacks.
 template <int Dim>
 typename MaterialPoint<Dim>::Weights foot(const Corners<Dim>& corners,
                                           unsigned face,
                                           const Vector<Dim>& point) {
     using Weights = typename MaterialPoint<Dim>::Weights;
     const int first = std::countr_zero(face);
-    // With the edges of corners that are not in the face being 0, their rows are those of 1.
+    // Corners that are not in the face have edges of 0, and a diagonal entry in their place below:
+    // the system stays regular.
     Eigen::Matrix<double, Dim, Dim + 1> edges = corners.colwise() - corners.col(first);
     Weights absent = Weights::Ones();
     for (int i = 0; i <= Dim; ++i) {
@@ -36,7 +37,7 @@ typename MaterialPoint<Dim>::Weights foot(const Corners<Dim>& corners,
         }
     }
     Eigen::Matrix<double, Dim + 1, Dim + 1> normal = edges.transpose() * edges;
-    // Of the size of the others, so that none is lost next to it.
+    // Of the size of the other entries, so that none is lost beside it.
     normal.diagonal() += normal.trace() / Dim * absent;
     Weights weights = Weights::Zero();
     if (std::popcount(face) > 1) {
@@ -54,7 +55,8 @@ struct PointOfCell {
     double distance = std::numeric_limits<double>::infinity();
 };
 
-// The nearest point of one cell: the least distant of those feet upon its faces that lie in them.
+// The nearest point of one cell: the nearest of the projections onto its faces that lie within
+// them.
 template <int Dim>
 PointOfCell<Dim> nearest_of_cell(const Corners<Dim>& corners, const Vector<Dim>& point) {
     constexpr unsigned kFaces = 1U << (Dim + 1);
@@ -75,8 +77,9 @@ PointOfCell<Dim> nearest_of_cell(const Corners<Dim>& corners, const Vector<Dim>&
     return nearest;
 }
 
-// Cells share faces: which of them is nearer by rounding differs from build to build. Boxes round
-// to a hair beyond the cells that they hold, which is less.
+// Distances up to this factor count as the same: cells share faces, and which of them is nearer by
+// rounding differs from build to build. No box is beyond it that holds a cell within it: boxes are
+// rounded outward.
 constexpr double kSame = 1 + 1e-9;
 
 }  // namespace

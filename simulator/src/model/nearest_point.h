@@ -11,7 +11,7 @@
 
 namespace pent::simulator {
 
-/// A point of a body by barycentric coordinates: it is where the cell has taken it.
+/// A point of a body, in a cell and by barycentric coordinates: it moves and deforms with the cell.
 template <int Dim>
 struct MaterialPoint {
     using Weights = Eigen::Matrix<double, Dim + 1, 1>;
@@ -21,8 +21,8 @@ struct MaterialPoint {
     double distance = 0;                            ///< From the point that was asked about, m.
 };
 
-/// Finds the point of some cells that is nearest to a point in space: that point itself, inside of
-/// them. By a tree, so that a search takes about as long in a million cells as in a thousand. In
+/// Finds the point of some cells that is nearest to a point in space: within the cells that point
+/// itself. By a tree, so that a search takes about as long in a million cells as in a thousand. In
 /// two steps, as cells may be on several ranks.
 template <int Dim>
 class NearestPointSearch {
@@ -51,8 +51,8 @@ private:
     contact::BoxTree tree_;
 };
 
-/// Barycentric coordinates of any point in a cell, which is taken on beyond its faces: some are
-/// negative outside.
+/// Barycentric coordinates of any point in space, those of a cell extrapolated beyond its faces:
+/// some are negative outside.
 template <int Dim>
 [[nodiscard]] typename MaterialPoint<Dim>::Weights barycentric(
     const Eigen::Matrix<double, Dim, Dim + 1>& corners, const Vector<Dim>& point);

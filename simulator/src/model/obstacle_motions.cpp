@@ -49,8 +49,8 @@ struct FieldMover {
     void operator()(const char* /*name*/, double& /*value*/, ShapeField /*kind*/) const {}
 };
 
-// What a motion turns an obstacle about that does not say it: its center, or of a half-space the
-// point next to the origin.
+// What a motion that does not say it turns an obstacle about: its center, or of a half-space the
+// point of its boundary that is nearest to the origin.
 template <int Dim>
 Vector<Dim> middle_of(const pent::ObstacleShape<Dim>& obstacle) {
     if (const auto* half_space = std::get_if<HalfSpace<Dim>>(&obstacle)) {

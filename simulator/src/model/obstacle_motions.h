@@ -27,10 +27,11 @@ public:
     /// All of them at a time, s; those without a motion as the scene has them, to the bit.
     [[nodiscard]] std::vector<pent::ObstacleShape<Dim>> at(double time) const;
 
-    /// Where what goes with an obstacle is at one time, of where it is at another.
+    /// The rigid map of an obstacle from one time to another: takes where a point that goes with it
+    /// is at `from` to where that is at `to`.
     [[nodiscard]] RigidMap carried(std::size_t obstacle, double from, double to) const;
 
-    /// How far the point of an obstacle that is at `point` at one time has come at another, m.
+    /// How far a point of an obstacle, which is at `point` at one time, has come at another, m.
     [[nodiscard]] Vector<Dim> displacement(std::size_t obstacle,
                                            const Vector<Dim>& point,
                                            double from,

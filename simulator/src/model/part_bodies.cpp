@@ -52,7 +52,8 @@ void place_parts(const Scene& scene,
         partition_columns<Dim>(bodies.rest(), number_columns(bodies.meshes), ranks->count()));
 }
 
-// Appends the cells of a body, of whose mesh nothing but labels and fibers in their order stays.
+// Appends the cells of a body. Of its mesh only labels and fibers are kept, in the order of these
+// cells.
 template <int Dim>
 void append_part(const Body& body,
                  std::size_t place,
@@ -157,7 +158,8 @@ Bodies<Dim> make_part_bodies(const Scene& scene,
     return bodies;
 }
 
-// A facet is of the rank that has its lowest corner at home, and with that all of its cells.
+// Each facet is found by one rank: that which owns its lowest corner, and so has all cells of the
+// facet.
 template <int Dim>
 Simplices<Dim> boundary_of(const Bodies<Dim>& bodies, std::size_t body) {
     if (!is_of_parts(bodies)) {

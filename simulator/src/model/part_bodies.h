@@ -25,14 +25,14 @@ template <int Dim>
 template <int Dim>
 void check_meshes(const Scene& scene, std::size_t meshes);
 
-/// Finds masses and the large energy, once all else is there; of parts also who shares them. Throws
-/// an Error for a vertex without mass.
+/// Finds masses and the large energy; all else of the bodies is to be there, of parts also the
+/// sharing. Throws an Error for a vertex without mass.
 template <int Dim>
 void lump_masses(const Scene& scene, Bodies<Dim>& bodies);
 
-/// What make_bodies() and keep_near_cells() make of whole meshes, from the parts that this rank
-/// has, shared out. Throws an Error on all ranks as make_bodies() does, for other vertices than on
-/// other ranks, and without ranks.
+/// The same as make_bodies() and keep_near_cells() make of whole meshes, from the parts that this
+/// rank has. Throws an Error on all ranks as make_bodies() does, where vertices differ between
+/// ranks, and without ranks.
 template <int Dim>
 [[nodiscard]] Bodies<Dim> make_part_bodies(const Scene& scene,
                                            std::vector<MeshPart<Dim>> parts,

@@ -14,7 +14,7 @@ namespace pent::simulator {
 
 namespace {
 
-// Of all ranks, where there are any.
+// The nearest miss of all ranks.
 template <int Dim>
 NearMiss<Dim> nearest_of_all(const Ranks* ranks, const NearMiss<Dim>& own) {
     if (ranks == nullptr) {
@@ -63,8 +63,8 @@ std::vector<std::uint16_t> materials_of_part(const SimplexMesh<Dim>& part,
         });
 }
 
-// A rank has all cells of its own vertices: of these it knows which have a label, and tells the
-// others.
+// A rank has all cells of its own vertices. So it knows which of these a label selects, and tells
+// the others.
 template <int Dim>
 std::vector<std::uint32_t> select_vertices(const Bodies<Dim>& bodies,
                                            std::size_t body,

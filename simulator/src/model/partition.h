@@ -10,7 +10,7 @@
 namespace pent::simulator {
 
 /// Shares vertices out to parts of about equal size, each compact: recursive coordinate bisection
-/// [berger1987]. Whole columns are kept together, by the middles of their vertices.
+/// [berger1987] of the middles of columns, whose vertices are kept together.
 ///
 /// @param rest   Dim x vertices, m.
 /// @param parts  At least 1.

@@ -26,7 +26,7 @@ constexpr Eigen::Index kChildren = Eigen::Index{1} << Dim;
                   " pent-mesh --quadratic, or take other elements");
 }
 
-// Of all ranks in order, or of one process alone, which has one row at most.
+// The rows of all ranks in order; of one process its own, one at most.
 template <std::size_t Width>
 std::vector<std::array<double, Width>> rows_of_all(
     const CellsOfRank& whole, const std::vector<std::array<double, Width>>& own) {
@@ -39,20 +39,22 @@ Eigen::Index count_of(const SimplexMesh<Dim>& mesh, const CellsOfRank& whole) {
     return whole.ranks != nullptr ? whole.count : mesh.cell_count();
 }
 
-// The quadratic simplex that a cell is a child of: they are in the order of these.
+// The quadratic simplex that a cell is a child of: named by the mesh, or as children follow one
+// another.
 template <int Dim>
 std::uint32_t parent_of(const SimplexMesh<Dim>& mesh, const CellsOfRank& whole, Eigen::Index cell) {
     return mesh.parents.empty() ? whole.number(cell) / static_cast<std::uint32_t>(kChildren<Dim>)
                                 : mesh.parents[static_cast<std::size_t>(cell)];
 }
 
-// Cells that are no children of a quadratic one. Every rank that has one of them has all.
+// Cells with one parent that do not make up a quadratic cell. Every rank that has one of them has
+// all.
 struct Fault {
     std::uint32_t parent;
     std::string found;
 };
 
-// All refuse the first one that any rank has found.
+// Throws on all ranks for the first fault that any of them has found.
 void refuse_first(const std::string& name,
                   const std::optional<Fault>& own,
                   const CellsOfRank& whole) {
@@ -71,7 +73,8 @@ void refuse_first(const std::string& name,
     });
 }
 
-// The corners that cells have alone, each with its cell.
+// The vertices that only one of some cells has, which are the corners of their parent, each with
+// its cell.
 template <int Dim>
 struct CornerChildren {
     std::vector<std::uint32_t> corners;
@@ -101,8 +104,8 @@ CornerChildren<Dim> corner_children(const SimplexMesh<Dim>& mesh, const Eigen::I
     return found;
 }
 
-// Nodes of one quadratic simplex, corners by increasing number but for orientation; false if cells
-// are not its children.
+// Finds the nodes of one quadratic simplex, corners by increasing number but for orientation; false
+// if the cells are not its children.
 template <int Dim>
 bool find_nodes(const SimplexMesh<Dim>& mesh,
                 const Eigen::Index* cells,
@@ -153,7 +156,8 @@ Eigen::Matrix<double, Dim + 1, 1> coordinates_of(int point) {
     return l;
 }
 
-// At the points where it is evaluated, and at nodes, where it is least if a middle has moved far.
+// The least Jacobian over that of straight edges: at quadrature points, and at nodes, where it is
+// least if a middle has moved far.
 template <int Dim>
 double least_jacobian(const Eigen::Matrix<double, Dim, kQuadraticNodes<Dim>>& places) {
     constexpr const QuadraticRule<Dim>& kRule = kQuadraticRule<Dim>;

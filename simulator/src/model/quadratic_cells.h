@@ -55,8 +55,8 @@ template <int Dim>
 [[nodiscard]] QuadraticRest<Dim> quadratic_rest(
     const Eigen::Matrix<double, Dim, kQuadraticNodes<Dim>>& places);
 
-/// Where a mesh has the cells of one rank alone, the NeededCells: what they are of the whole. As it
-/// stands, it is of a mesh that is here as a whole.
+/// How the cells of a mesh are those of one rank (the NeededCells) of a whole mesh. As it stands,
+/// of a mesh that is here as a whole.
 struct CellsOfRank {
     const Ranks* ranks = nullptr;
     Eigen::Index count = 0;                       ///< Cells of the whole.

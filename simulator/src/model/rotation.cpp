@@ -68,7 +68,7 @@ MeshPart<Dim> place(MeshPart<Dim> part, const Body& body) {
 
 namespace {
 
-// How far a motion has gone, part by part.
+// How far a motion has gone: translation, and a turn in each plane.
 struct Turned {
     Plane plane;
     double angle = 0;  // radians
@@ -84,8 +84,9 @@ struct Course {
 template <int Dim>
 Course<Dim> steady_course(const Motion& motion, double time) {
     const double elapsed = std::clamp(time, motion.from, motion.to) - motion.from;
-    // As the step did that ends here, so that of two motions one after the other it is the first;
-    // no step ends at 0.
+    // The velocity is that with which the time is reached, as at the end of a step: of two motions
+    // one after the other it is that of the first. At 0, where no step ends, it is that of the
+    // motion that begins.
     const bool has_begun = time == 0 ? motion.from == 0 : is_behind(time, motion.from);
     const bool is_moving = has_begun && !is_behind(time, motion.to);
     const Vector<Dim> translate = motion.translate;
@@ -129,7 +130,7 @@ CurvePoint angle_in(const MotionKeyframe& keyframe, const Plane& plane) {
     return point;
 }
 
-// Those that keyframes turn in, each once, in the order in which they name them.
+// The planes that keyframes turn in, each once, in the order in which they name them.
 std::vector<Plane> planes_of(const Motion& motion) {
     std::vector<Plane> planes;
     const auto add = [&](const auto& turns) {

@@ -32,8 +32,8 @@ struct Pose {
 };
 
 /// Pose of a motion at a time in s, in closed form; at rest before `from`, and behind `to` or the
-/// last keyframe. At one of these its velocity is that from which it comes there, and at 0 the one
-/// with which it begins.
+/// last keyframe. At either of these the velocity is the one before that time, and at 0 the one
+/// with which the motion begins.
 template <int Dim>
 [[nodiscard]] Pose<Dim> pose_at(const Motion& motion, double time);
 

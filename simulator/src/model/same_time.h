@@ -11,7 +11,7 @@ namespace pent::simulator {
 /// no step.
 inline constexpr double kSameTime = 1e-6;
 
-/// The number of steps dt that it takes to a time or beyond it, >= 0 for times that are.
+/// The least number of steps dt that reach a time; >= 0 for times that are.
 [[nodiscard]] inline double steps_to(double time, double dt) {
     return std::ceil(time / dt - kSameTime);
 }
@@ -21,7 +21,7 @@ inline constexpr double kSameTime = 1e-6;
     return std::floor(time / dt + kSameTime);
 }
 
-/// Whether a step is over of which a part is.
+/// Whether a step is over, of which a part in [0, 1] has gone by.
 [[nodiscard]] inline bool is_whole_step(double part) {
     return part >= 1 - kSameTime;
 }

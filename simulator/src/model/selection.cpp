@@ -155,7 +155,7 @@ std::string range_text(double least, double most) {
     return formatted("%.0f to %.0f", least, most);
 }
 
-// What there is in place of what was selected.
+// Says what there is in place of what was selected.
 template <int Dim>
 struct MissText {
     const SimplexMesh<Dim>& mesh;
@@ -273,7 +273,8 @@ template <int Dim>
 std::vector<bool> mark_cells(const SimplexMesh<Dim>& mesh,
                              const std::vector<Selection>& select,
                              const std::string& where) {
-    // Labels and layers ask for no place, and a body may have a thousand regions by their labels.
+    // Selections by label or layer need no centers of cells, and a body may have a thousand regions
+    // by their labels.
     const bool needs_places =
         std::any_of(select.begin(), select.end(), [](const Selection& selection) {
             return !std::holds_alternative<RegionSelection>(selection)

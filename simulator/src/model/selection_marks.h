@@ -35,7 +35,7 @@ template <int Dim>
                                            const std::vector<Selection>& select,
                                            const std::string& where);
 
-/// Of what every cell is, see materials_of_cells().
+/// The number of the material of every cell, see materials_of_cells().
 ///
 /// @param mark  Which cells a region has, one entry a cell.
 [[nodiscard]] std::vector<std::uint16_t> materials_by_regions(

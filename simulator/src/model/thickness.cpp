@@ -7,8 +7,8 @@ namespace pent::simulator {
 
 namespace {
 
-// An extent along an axis of its own counts if it is less than that along the axes of space by this
-// part: those of an upright box are the same, but for rounding.
+// The extent along a principal axis counts if it is less than that along the axes of space by this
+// part: of an upright box both are the same, but for rounding.
 constexpr double kRounding = 1e-9;
 
 }  // namespace

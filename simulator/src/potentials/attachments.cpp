@@ -16,8 +16,8 @@ namespace pent::simulator {
 
 namespace {
 
-// Coordinates of an offset beyond this belong to a cell so flat that the spring would be this many
-// times as strong on its corners.
+// An offset with larger barycentric coordinates belongs to a cell so flat that the spring would
+// pull this many times as hard on its corners.
 constexpr double kMaxCoordinate = 100;
 
 bool is_any_damped(const std::vector<Attachment>& attachments) {
@@ -87,8 +87,8 @@ void Attachments<Dim>::add_springs(const Workers& workers,
         center<Dim>(attachment.motion, sum / static_cast<double>(bundle.end - bundle.begin));
 }
 
-// To where it is, or by an offset to a point: its anchor is that point and the offset, which a
-// motion takes along.
+// The anchor is where the vertex is at rest, which keeps its offset from the attachment's point, if
+// there is one; with RestOffset::Zero it is that point. A motion takes either along.
 template <int Dim>
 typename Attachments<Dim>::Tie Attachments<Dim>::tie_to_space(const Bodies<Dim>& bodies,
                                                               const Attachment& attachment,
@@ -157,7 +157,8 @@ template <int Dim>
 bool Attachments<Dim>::set_time(const TimeSpan& step) {
     bool has_changed = rate_ > 0 && is_any_damped(list_);
     rate_ = 0;
-    // Of the step that this is a part of, where it was cut: they come and go between steps.
+    // Attachments come and go between whole steps: where a step was cut in two, by the start of the
+    // whole.
     const double whole = dt_ * whole_steps(step.begin, dt_);
     for (Bundle& bundle : bundles_) {
         const bool was_on = bundle.is_on;

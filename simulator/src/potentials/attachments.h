@@ -18,10 +18,10 @@ namespace pent::simulator {
 /// The springs of all attachments of a scene.
 ///
 /// One spring ties a vertex x to a point q: that of a cell of another body with fixed barycentric
-/// coordinates, or a point in space that may move; its stretch is x - q. The coordinates sum up to
-/// 1, so that the forces on vertex and cell have no sum and, but for the damping of what is
-/// stretched, no moment, wherever they are. An offset is kept by the coordinates of the vertex
-/// itself, beyond the faces of the cell: it turns and stretches with the cell.
+/// coordinates, or a point in space that may move; its stretch is x - q. The coordinates add up to
+/// 1, so that the forces on vertex and cell add up to zero; they have no moment, either, wherever
+/// they are, but for the damping of what is stretched. An offset is kept by the coordinates of the
+/// vertex itself, extrapolated beyond the faces of the cell: it turns and stretches with the cell.
 template <int Dim>
 class Attachments final : public Potential<Dim> {
 public:
@@ -44,8 +44,8 @@ public:
     /// One an attachment, at the positions last evaluated.
     [[nodiscard]] std::vector<AttachmentSummary> summaries() const;
 
-    /// Breaks what pulls too hard at the positions last evaluated; returns the bodies that are then
-    /// free of it.
+    /// Breaks springs that pull too hard at the positions last evaluated; returns the bodies that
+    /// were tied by them.
     [[nodiscard]] std::vector<std::size_t> break_springs();
 
     /// One a spring: 1 if it is broken, else 0.

@@ -11,15 +11,17 @@ namespace pent::simulator {
 
 namespace {
 
-// Gaps below these parts of the distance of contact: a step starts with the stiffness that would
-// balance its forces there, and an iteration that comes nearer still doubles it.
+// Parts of the activation distance. With a gap below the first a step starts with the stiffness
+// that balances all other forces there; an iteration that ends with one below the second, and less
+// than before, doubles the stiffness.
 constexpr double kDeep = 0.1;
 constexpr double kTight = 0.01;
 
-// Gaps above this part of the largest coordinate are no touch; below they may be.
+// With all gaps above this part of the largest coordinate nothing touches, whatever the rounding;
+// below it something may.
 constexpr double kTouching = 1e-9;
 
-// The stiffness never is more than this times that of the scene.
+// The stiffness is never more than this times that of the scene.
 constexpr double kMaxStiffness = 1e8;
 
 }  // namespace
@@ -35,8 +37,8 @@ double ContactPotential<Dim>::max_step(const Positions<Dim>& from, const Positio
     return limit_.fraction;
 }
 
-// Where bodies are not close and the stiffness is that of the scene, it stays so whatever the
-// forces, which take another look at all contacts.
+// To balance means to evaluate all contacts once more: not where it would change nothing, as bodies
+// are not close and the stiffness is that of the scene already.
 template <int Dim>
 bool ContactPotential<Dim>::wants_balance() const {
     return is_barrier_ && (is_close() || stiffness_ != settings_.stiffness);
@@ -47,8 +49,9 @@ bool ContactPotential<Dim>::is_close() const {
     return gap() < kDeep * settings_.distance;
 }
 
-// The stiffness with which the barrier would balance, in the sense of least squares, all other
-// forces where bodies are now; that of the scene unless they are close [li2020, supplement].
+// Where bodies are close, the stiffness with which the barrier balances all other forces at the
+// positions last evaluated, in the sense of least squares [li2020, supplement]; else that of the
+// scene.
 template <int Dim>
 bool ContactPotential<Dim>::balance(const BlockVector<Dim>& own, const BlockVector<Dim>& others) {
     const double before = stiffness_;
@@ -108,8 +111,9 @@ std::vector<contact::Crossing> ContactPotential<Dim>::find_crossings(
     });
 }
 
-// To look at everything takes time: only where contacts say that something is that near, or where
-// they are not asked, of what is held for a while and obstacles.
+// A search for crossings is slow. It is made only where contacts report a gap that small, or where
+// they would not: held vertices and obstacles do not push each other, but one that is let go later
+// must not end in an obstacle.
 template <int Dim>
 std::string ContactPotential<Dim>::touching(const Positions<Dim>& from,
                                             const Positions<Dim>& to) const {

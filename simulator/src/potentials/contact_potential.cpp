@@ -118,7 +118,7 @@ contact::Contacts<Dim> ContactPotential<Dim>::contacts_at_begin(const Positions<
     });
 }
 
-// Of the point at the surface that is next to the body.
+// How far the point of the surface moves that is nearest to the body.
 template <int Dim>
 Vector<Dim> ContactPotential<Dim>::obstacle_displacement(const contact::Contact<Dim>& contact,
                                                          const Positions<Dim>& x) const {
@@ -179,8 +179,9 @@ bool ContactPotential<Dim>::set_sleepers(std::vector<double> stiffness) {
     return has_changed;
 }
 
-// Where nothing is awake: that of a body that sleeps, and of both if both do, who fell asleep
-// together.
+// A contact between bodies that all sleep, or are moved from outside, keeps the stiffness with
+// which they fell asleep: over the current one. Two that sleep fell asleep together, with the same.
+// With one that is awake it is the current one.
 template <int Dim>
 double ContactPotential<Dim>::stiffness_over_current(const contact::Contact<Dim>& contact) const {
     double factor = 1;
@@ -204,7 +205,7 @@ contact::Contacts<Dim> ContactPotential<Dim>::find(const Positions<Dim>& x) cons
     }
     for (contact::Contact<Dim>& contact : contacts.list) {
         const double factor = stiffness_over_current(contact);
-        if (factor != 1) {  // that of what is about to touch may be infinite
+        if (factor != 1) {  // else 0 times an energy that may be infinite
             (contact.second.is_obstacle() ? contacts.obstacle_energy : contacts.body_energy) +=
                 (factor - 1) * contact.energy;
             contact.energy *= factor;
@@ -239,8 +240,9 @@ double ContactPotential<Dim>::evaluate(const Positions<Dim>& x, Positions<Dim>& 
     return contacts_.body_energy + contacts_.obstacle_energy;
 }
 
-// What contacts push at the end of the step with vertices where they are, to first order. That is
-// what the displacement of held vertices does in the matrix, where obstacles have no columns.
+// Adds what the motion of obstacles in the step changes of the contact forces, to first order. What
+// the motion of held vertices changes is in the matrix of the linear solve, by their columns;
+// obstacles have none.
 template <int Dim>
 void ContactPotential<Dim>::add_obstacle_displacements(const Positions<Dim>& x) {
     contact::Contacts<Dim> at_obstacles;
@@ -269,7 +271,7 @@ ContactSummary ContactPotential<Dim>::summary() const {
     return summary;
 }
 
-// Those in rows of this rank, in their order.
+// The contacts that have entries in rows of this rank, in their order.
 template <int Dim>
 contact::Contacts<Dim> ContactPotential<Dim>::own_contacts() const {
     contact::Contacts<Dim> own;
@@ -349,8 +351,8 @@ void ContactPotential<Dim>::add_couplings(Couplings& couplings) const {
 template <int Dim>
 bool ContactPotential<Dim>::begin_step(const StepStart<Dim>& start) {
     last_gap_ = gap();
-    // A linear solve finds contacts once, of all things where they are at one time: vertices at the
-    // begin of the step would have lost an obstacle that sinks, and be deep in one that rises.
+    // A single linear solve finds contacts once, with vertices at the start of the step. With
+    // obstacles at its end, vertices would have lost one that sinks, and be deep in one that rises.
     are_at_begin_ = start.is_linear && has_moving_obstacles();
     if (are_at_begin_) {
         put_obstacles(step_.begin);

@@ -17,8 +17,7 @@ namespace pent::simulator {
 
 /// Contact between bodies, within them, and with obstacles: by penalties or by a barrier.
 ///
-/// One of a scene without [contact] and [[obstacle]] has nothing in it: no surface, no tree, no
-/// search.
+/// In a scene without [contact] and [[obstacle]] it is empty: no surface, no tree, no search.
 template <int Dim>
 class ContactPotential final : public Potential<Dim> {
 public:
@@ -55,7 +54,7 @@ public:
     /// threads.
     [[nodiscard]] const contact::Contacts<Dim>& contacts() const { return contacts_; }
 
-    /// What is counted and measured of them, without work.
+    /// Counts and extremes of these, without what they cost.
     [[nodiscard]] ContactSummary summary() const;
 
     /// Their gradient, Dim x vertices, N; no columns where nothing can touch.
@@ -100,8 +99,9 @@ public:
                                                                 const HeldVertices<Dim>& held,
                                                                 const Positions<Dim>& x) const;
 
-    /// What a step leads to, where that is no state to begin from; empty if it is. Newton's method
-    /// keeps gaps above 0, but what is held arrives where it is told to, however near that is.
+    /// Something that touches in the state that a step has led to, from which no step can begin;
+    /// empty if nothing does. Newton's method keeps gaps above 0, but what is held arrives where it
+    /// is told to, however near that is.
     ///
     /// @param to  Where contacts were last evaluated.
     [[nodiscard]] std::string touching(const Positions<Dim>& from, const Positions<Dim>& to) const;
@@ -114,8 +114,8 @@ public:
     void set_stiffness(double stiffness) { stiffness_ = is_barrier_ ? stiffness : stiffness_; }
     [[nodiscard]] const ContactSettings& settings() const { return settings_; }
 
-    /// What touches a body that sleeps pushes with the stiffness with which that fell asleep: it
-    /// sleeps, too, or moves from outside. Returns whether the value has changed.
+    /// Contacts of a sleeping body keep the stiffness with which it fell asleep: what else is in
+    /// them sleeps, too, or moves from outside. Returns whether the value has changed.
     ///
     /// @param stiffness  Of a barrier, one a body, N/m; 0 of those that are awake.
     [[nodiscard]] bool set_sleepers(std::vector<double> stiffness);
@@ -154,10 +154,11 @@ private:
     double last_gap_ = 0;                        // m, of the last accepted iterate
     ObstacleMotions<Dim> motions_;
     TimeSpan step_;
-    bool are_at_begin_ = false;  // obstacles, with their displacement in the gradient
-    std::vector<pent::ObstacleShape<Dim>> obstacles_;      // else at its end
+    bool are_at_begin_ = false;  // whether obstacles are where the step begins, not where it ends;
+                                 // then their displacement in it is a part of the gradient
+    std::vector<pent::ObstacleShape<Dim>> obstacles_;      // where they are
     std::unique_ptr<contact::ContactFinder<Dim>> finder_;  // null where nothing can touch
-    contact::Contacts<Dim> contacts_;                      // there
+    contact::Contacts<Dim> contacts_;                      // at the positions last evaluated
     Positions<Dim> gradient_;                              // there
     contact::StepLimit limit_;
     contact::StencilHessians<Dim> hessians_;  // while a system is assembled

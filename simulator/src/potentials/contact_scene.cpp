@@ -15,11 +15,11 @@ namespace pent::simulator {
 
 namespace {
 
-// How far vertices may move before pairs are searched again, over the distance of contact: the
-// evaluations of one Newton step stay within it.
+// How far vertices may move before pairs are searched again, as a part of the activation distance:
+// the evaluations of one Newton step mostly stay within it.
 constexpr double kMargin = 0.25;
 
-// None where other ranks have some of them.
+// The cells of a body; none where other ranks have some of them.
 template <int Dim>
 std::span<const std::uint32_t> whole_cells(const Bodies<Dim>& bodies, std::size_t body) {
     const Simplices<Dim + 1>& cells = bodies.cells();

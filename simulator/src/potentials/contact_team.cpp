@@ -6,7 +6,7 @@ namespace pent::simulator {
 
 namespace {
 
-// So many numbers hold so many bytes.
+// How many doubles it takes to hold so many bytes.
 std::int64_t numbers_for(std::size_t bytes) {
     return static_cast<std::int64_t>((bytes + sizeof(double) - 1) / sizeof(double));
 }
@@ -21,7 +21,7 @@ std::size_t ContactTeam::rank() const {
     return static_cast<std::size_t>(ranks_->rank());
 }
 
-// Bytes travel as numbers, which nobody computes with.
+// Ranks exchange doubles alone: bytes travel as these, which nobody computes with.
 std::vector<std::vector<std::byte>> ContactTeam::gather(std::span<const std::byte> own) const {
     const auto own_size = static_cast<double>(own.size());
     const std::vector<double> sizes =

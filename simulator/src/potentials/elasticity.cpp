@@ -64,7 +64,9 @@ ElementLayout<Dim> Elasticity<Dim>::lay_out(const DofMap& dofs, const Grips* gri
     return layout;
 }
 
-// Rigid grips strain nothing, but activations do, and in linear elasticity turns.
+// A constraint that moves its vertices as one rigid body strains nothing between them, with two
+// exceptions: activations do, and so do turns in linear elasticity, whose energy is not invariant
+// under rotations.
 template <int Dim>
 void Elasticity<Dim>::lay_out_held(const HeldVertices<Dim>& held) {
     std::vector<bool> strains;
@@ -259,7 +261,7 @@ double Elasticity<Dim>::rounding() const {
     return bodies_->large_energy * std::numeric_limits<double>::epsilon();
 }
 
-// Other elements may not be inside out where one of their cells is.
+// Counts cells: smoothed and quadratic elements need not be inverted where one of their cells is.
 template <int Dim>
 std::int64_t Elasticity<Dim>::inverted_cells(const Positions<Dim>& x) const {
     if (kind_ == ElementKind::Linear) {

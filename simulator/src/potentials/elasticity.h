@@ -44,7 +44,7 @@ public:
                   const std::vector<bool>& asleep,
                   const Positions<Dim>& positions);
 
-    /// Factor on the Hessian alone: Rayleigh damping in a step of a single linear solve.
+    /// Factor on the Hessian alone: how Rayleigh damping enters a step of a single linear solve.
     void set_hessian_factor(double factor) { hessian_factor_ = factor; }
 
     [[nodiscard]] double evaluate(const Positions<Dim>& x, Positions<Dim>& gradient) override;
@@ -59,8 +59,8 @@ public:
     void add_couplings(Couplings& couplings) const override;
     [[nodiscard]] double rounding() const override;
 
-    /// What the activations do on the bodies while these go from one place to another in a step, J:
-    /// what the energy would change by without that way, the mean of its two ends.
+    /// The work of activations on bodies that go from one place to another in a step, J: what the
+    /// change of rest shapes alone changes of the energy, as the mean of that at both places.
     [[nodiscard]] double activation_work(const Positions<Dim>& from,
                                          const Positions<Dim>& to,
                                          const TimeSpan& step);
@@ -118,16 +118,16 @@ private:
     const Bodies<Dim>* bodies_;
     ElementKind kind_;
     ActiveStrain<Dim> strain_;
-    TimeSpan step_;  // that shapes are those of the end of
+    TimeSpan step_;  // rest shapes are those of its end
     std::shared_ptr<const BlockPattern> pattern_;
-    std::optional<Elements<Dim>> elements_;  // on it; always there
+    std::optional<Elements<Dim>> elements_;  // on the pattern; always set
     struct {
         std::int64_t elements = 0;
         std::int64_t blocks = 0;
         std::int64_t bytes = 0;
     } size_;  // of all ranks together
     std::int64_t ghost_count_ = 0;
-    // Of bodies that sleep: what does not change.
+    // The part of bodies that sleep, which does not change.
     Positions<Dim> frozen_gradient_;  // Dim x vertices, N; empty if none sleeps
     ElasticEnergy frozen_;
     ElasticEnergy energy_;

@@ -9,7 +9,7 @@
 
 namespace pent::simulator {
 
-// Keeps the last chunk as it is, if any of its elements will be activated.
+// Keeps the rest shapes of the last chunk, if any of its elements will be activated.
 template <int Dim>
 void Elements<Dim>::keep_passive(std::span<const Eigen::Index> chosen,
                                  const ActiveStrain<Dim>* strain) {
@@ -32,8 +32,8 @@ void Elements<Dim>::activate(const Workers& workers, const ActiveStrain<Dim>& st
                      [&](int i) { activate(passive_[static_cast<std::size_t>(i)], strain); });
 }
 
-// Where F is X G^T, columns of G being the gradients of corners at rest, Fe = F Fa^-1 has the
-// gradients Fa^-T G, and each volume det Fa of it.
+// F is X G^T, the columns of G being the gradients of the shape functions of corners at rest. So Fe
+// = F Fa^-1 is that of the gradients Fa^-T G, and volumes are multiplied by det Fa.
 template <int Dim>
 void Elements<Dim>::activate(const Passive& passive, const ActiveStrain<Dim>& strain) {
     const Chunk& chunk = chunks_[passive.chunk];

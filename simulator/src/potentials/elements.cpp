@@ -19,20 +19,21 @@ namespace {
 constexpr int kChunkElements = 512;  // a multiple of kGroup
 static_assert(kChunkElements % kGroup == 0);
 
-// So that kTurnedBlock less any of them is a number.
+// So that kTurnedBlock - block, which stands for the transpose of a block, fits its type.
 constexpr std::int64_t kMaxBlocks = std::numeric_limits<std::int32_t>::max() - 2;
 
-// Of quadratic ones, of which each stands for as many cells as it has children.
+// The same of quadratic elements, each of which stands for as many cells as it has children.
 constexpr int kChunkQuadratic = 4 * kGroup;
 
-// Domains are grouped by their number of corners within so many that are close in memory.
+// Smoothing domains are sorted by their number of corners, for chunks of equal ones, but only
+// within stretches of so many, which leaves neighbors close in memory.
 constexpr std::size_t kNearElements = std::size_t{8} * kChunkElements;
 static_assert(kNearElements % kChunkElements == 0);
 
-// What of lambda acts at every point of a quadratic element by itself, the rest acting on the mean
-// over the element: alpha mu at most. Without it elements are a fifth too soft in diagonal bending
-// with one across; twice as much is too stiff by 5% along an axis. In 4D it is where unstructured
-// meshes lock least, too.
+// The part of lambda that acts at every quadrature point of a quadratic element by itself, alpha mu
+// at most; the rest acts on the mean dilatation of the element, so that it does not lock. Without
+// it elements are a fifth too soft in diagonal bending with one across; twice as much is too stiff
+// by 5% along an axis. In 4D it is where unstructured meshes lock least, too.
 template <int Dim>
 double local_lambda(const Material& material) {
     constexpr double kAlpha = Dim == 3 ? 1 : 0.5;

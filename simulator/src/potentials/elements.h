@@ -89,7 +89,7 @@ public:
                              const Positions<Dim>& positions,
                              const HessianTarget<Scalar>& target) const;
 
-    [[nodiscard]] std::int64_t count() const { return count_; }  ///< That count here.
+    [[nodiscard]] std::int64_t count() const { return count_; }  ///< Of those that count here.
     [[nodiscard]] std::int64_t bytes() const;
 
 private:
@@ -100,7 +100,7 @@ private:
         double volume = 0;
     };
 
-    // Elements of one body and, but for padding, as many corners.
+    // Elements of one range of cells that, but for padding, have the same number of corners.
     struct Chunk {
         ElementKind kind = ElementKind::Linear;
         int elements = 0;
@@ -114,7 +114,7 @@ private:
         std::size_t first_block = 0;
     };
 
-    // Chunks of which an element is activated: what the elements are without that.
+    // A chunk of which an element is activated, with its rest shape as it is without that.
     struct Passive {
         std::size_t chunk = 0;
         std::vector<Eigen::Index> elements;
@@ -123,7 +123,7 @@ private:
 
     Elements(std::size_t ranges, const DofMap& dofs, const BlockPattern& pattern);
 
-    // What a chunk will be of.
+    // A chunk to be made, and its elements.
     struct Plan {
         Chunk like;
         std::span<const Eigen::Index> elements;
@@ -137,7 +137,7 @@ private:
                                                 std::size_t size,
                                                 const LikeOf& like_of);
 
-    // Arrays are given the size they need at once: those that grow are there twice meanwhile.
+    // Reserves arrays at the size that they need: while an array grows its memory is there twice.
     //
     // @param make  Fills in an element by its range and number.
     template <typename Make>

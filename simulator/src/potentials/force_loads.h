@@ -9,9 +9,9 @@
 
 namespace pent::simulator {
 
-/// Forces of given size and direction on vertices, wherever these go: - sum of f . x over all
-/// vertices that a [[load]] with a force selects. Each has a part of the force like its part of the
-/// mass of all, so that the force acts at their center of mass. And those that a host sets.
+/// Forces of given size and direction on vertices, wherever these go: - sum of f . x. Each vertex
+/// that a [[load]] with a force selects has a part of that force in proportion to its mass, so that
+/// the force acts at their center of mass. A host may add forces of its own.
 template <int Dim>
 class ForceLoads final : public Potential<Dim> {
 public:

@@ -22,8 +22,8 @@ template <int Dim>
 bool FrictionPotential<Dim>::begin_step(const StepStart<Dim>& start) {
     const Positions<Dim>* velocities = start.is_linear ? &start.velocities : nullptr;
     if (contacts_->has_moving_obstacles()) {
-        // One that comes nearer would press as hard on a body that has not moved yet as if it had
-        // run into it.
+        // With obstacles at the end of the step, one that comes nearer would press on a body that
+        // has not moved yet as if it had been run into.
         friction_.begin_step(contacts_->contacts_at_begin(start.positions).list, start.positions,
                              velocities, start.h, [&](const contact::Contact<Dim>& contact) {
                                  return contacts_->obstacle_displacement(contact, start.positions);

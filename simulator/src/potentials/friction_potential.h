@@ -18,8 +18,9 @@ public:
     FrictionPotential(const ContactPotential<Dim>& contacts, const contact::Friction& friction)
         : contacts_(&contacts), friction_(friction) {}
 
-    /// With a step of another end, nothing is held until it begins: no evaluation in between is of
-    /// use to anyone, and a simulation that was put here has nothing to hold.
+    /// Where a step begins that ends at another time, drops what is held of the last one, which
+    /// does not belong to it: until begin_step() there is no friction. That is so, too, where a
+    /// simulation was put to another time.
     [[nodiscard]] bool set_time(const TimeSpan& step) override;
     [[nodiscard]] bool begin_step(const StepStart<Dim>& start) override;
     [[nodiscard]] double evaluate(const Positions<Dim>& x, Positions<Dim>& gradient) override;

@@ -11,12 +11,12 @@ namespace pent::simulator {
 
 namespace {
 
-// A pull of `force` newtons is weakened by this to be no harder than `most`.
+// The factor by which a pull of `force` newtons is weakened to be no harder than `most`.
 double weakening(double force, double most) {
     return force > most ? most / force : 1;
 }
 
-// Of a cell of a body's mesh, which some rank has.
+// The material of a cell of a body's mesh, which may be on another rank.
 template <int Dim>
 const Material& material_of(const Bodies<Dim>& bodies, std::size_t body, std::int64_t cell) {
     const auto has_it = [&](const CellRange& range) {
@@ -163,7 +163,7 @@ double bearable_force(const Bodies<Dim>& bodies, const BodyPoint<Dim>& point) {
         const std::uint32_t vertex = bodies.meshes[body].cells(i, point.cell);
         mass += std::abs(point.weights[i]) * bodies.masses[bodies.first_vertex[body] + vertex];
     }
-    // A vertex has a part of the mass of each of its cells, one for each of their corners.
+    // Undoes the lumping: each cell gives each of its Dim + 1 corners an equal part of its mass.
     const double volume = (Dim + 1) * mass / material.density;
     return (2 * material.lame.mu + std::abs(material.lame.lambda))
            * std::pow(volume, (Dim - 1.0) / Dim);

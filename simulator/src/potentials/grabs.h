@@ -58,7 +58,7 @@ private:
     double damping_energy_ = 0;
 };
 
-/// What a grab of a point pulls with at most unless it says so itself; see Grab::max_force.
+/// The largest force of a grab that names none; see Grab::max_force.
 template <int Dim>
 [[nodiscard]] double bearable_force(const Bodies<Dim>& bodies, const BodyPoint<Dim>& point);
 

@@ -11,9 +11,9 @@ namespace pent::simulator {
 
 /// Half the squared distance from an anchor, weighed by masses: 1/2 |x - anchor|_M^2, kg m^2.
 ///
-/// With the place that inertia alone would lead to for an anchor it is the inertia of a time step;
-/// with the place from which its velocity counts it is the part of Rayleigh damping that masses
-/// make.
+/// With the place to which inertia alone would lead as the anchor it is the inertia of a time step;
+/// with the place from which the velocity counts, the part of Rayleigh damping that is proportional
+/// to mass.
 template <int Dim>
 class MassDistance final : public Potential<Dim> {
 public:

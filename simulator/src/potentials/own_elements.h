@@ -17,8 +17,8 @@ namespace pent::simulator {
 /// Elements of this rank: those that count here, and those that another rank has, too, and counts.
 using OwnAndShared = std::array<std::vector<Eigen::Index>, 2>;
 
-/// Whether something may strain an element that is held at all corners: not what one grip has
-/// together.
+/// Whether an element has all corners held, and may be strained nevertheless: not by one constraint
+/// that moves all of them as a rigid body.
 [[nodiscard]] bool is_held_and_strained(std::span<const std::uint32_t> corners, const Grips& grips);
 
 /// The corners of an element.
@@ -34,7 +34,8 @@ using CornersOf = std::function<std::span<const std::uint32_t>(Eigen::Index elem
                                             const Grips* grips,
                                             const CornersOf& corners_of);
 
-/// Sorts elements of each kind by a key within every so many, which leaves neighbors close.
+/// Sorts elements of each kind by a key, but only within stretches of `size`, which leaves
+/// neighbors close.
 template <typename KeyOf>
 void sort_near(OwnAndShared& chosen, std::size_t size, const KeyOf& key_of) {
     for (std::vector<Eigen::Index>& elements : chosen) {
@@ -47,7 +48,7 @@ void sort_near(OwnAndShared& chosen, std::size_t size, const KeyOf& key_of) {
     }
 }
 
-/// Calls visit(elements, whether they count) for every so many elements of each kind.
+/// Calls visit(elements, whether they count) for stretches of at most `size` elements of each kind.
 template <typename Visit>
 void for_each_chunk(const OwnAndShared& chosen, std::size_t size, const Visit& visit) {
     for (std::size_t kind = 0; kind < chosen.size(); ++kind) {

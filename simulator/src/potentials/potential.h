@@ -14,7 +14,7 @@
 
 namespace pent::simulator {
 
-/// What a step starts from. The velocity at its end is rate (x - origin).
+/// What a step starts from. The velocity at its end x is rate (x - origin).
 template <int Dim>
 struct StepStart {
     const Positions<Dim>& positions;   ///< Dim x vertices, m; where the energy was last evaluated.
@@ -43,9 +43,9 @@ struct Couplings {
 
 /// One term of what a step minimizes: a function of the positions of all vertices.
 ///
-/// Terms know nothing of how a step is solved, and only friction of another: of contact. Arrays
-/// are Dim x vertices; what a term says of vertices without a dof is left out by those who sum up.
-/// Derivatives are tested against differences, each in a test of its own.
+/// Terms know nothing of how a step is solved, and nothing of one another, but for friction, which
+/// knows contact. Arrays are Dim x vertices; what a term says of vertices without a dof is left out
+/// by those who sum up. Derivatives are tested against differences, each in a test of its own.
 template <int Dim>
 class Potential {
 public:
@@ -56,8 +56,8 @@ public:
     Potential(Potential&&) = delete;
     Potential& operator=(Potential&&) = delete;
 
-    /// Value at positions x, m; adds the gradient to `gradient`. The methods below speak of the
-    /// positions last evaluated; nobody keeps where those lie.
+    /// Value at positions x, m; adds the gradient to `gradient`. The methods below refer to the
+    /// positions last evaluated; no term keeps a reference to these.
     [[nodiscard]] virtual double evaluate(const Positions<Dim>& x, Positions<Dim>& gradient) = 0;
 
     /// Adds weight times the Hessian, its negative eigenvalues as `filter` says.
@@ -71,19 +71,19 @@ public:
     /// The parts of the value by name, for reports.
     [[nodiscard]] virtual std::vector<TermEnergy> energies() const { return {}; }
 
-    /// What depends on time is as at the end of this step from now on; driven is what moves in it.
-    /// Returns whether the value has changed.
+    /// Sets what depends on time as it is at the end of this step; bodies are driven that are moved
+    /// in it. Returns whether the value has changed.
     [[nodiscard]] virtual bool set_time(const TimeSpan& /*step*/) { return false; }
 
     /// Adds what it couples at the positions last evaluated.
     virtual void add_couplings(Couplings& /*couplings*/) const {}
 
-    /// Takes what is held during a step (normal forces, tangents) from its start. Returns whether
-    /// the value has changed.
+    /// Takes from the start of a step what is held during it, or lagged (normal forces, tangents).
+    /// Returns whether the value has changed.
     [[nodiscard]] virtual bool begin_step(const StepStart<Dim>& /*start*/) { return false; }
 
-    /// The largest part of the way from one place to another, in [0, 1], at which the value is
-    /// finite all along.
+    /// The largest fraction of the way from one place to another, in [0, 1], along which the value
+    /// is finite.
     [[nodiscard]] virtual double max_step(const Positions<Dim>& /*from*/,
                                           const Positions<Dim>& /*to*/) {
         return 1;
@@ -92,8 +92,8 @@ public:
     /// Whether it is infinite somewhere, so that max_step() may be less than 1.
     [[nodiscard]] virtual bool is_bounded() const { return false; }
 
-    /// Gives way to the others, at the start of a step: chooses its stiffness from its own gradient
-    /// and that of all others, Dim x dofs. Returns whether the value has changed.
+    /// Chooses its stiffness at the start of a step, so that its own gradient balances that of all
+    /// others, Dim x dofs. Returns whether the value has changed.
     [[nodiscard]] virtual bool balance(const BlockVector<Dim>& /*own*/,
                                        const BlockVector<Dim>& /*others*/) {
         return false;
@@ -104,7 +104,7 @@ public:
     /// value has changed.
     [[nodiscard]] virtual bool adapt() { return false; }
 
-    /// What terms that cancel may leave of the value in rounding.
+    /// Error of the value, by rounding, where large terms of it cancel.
     [[nodiscard]] virtual double rounding() const { return 0; }
 
     /// Whether the gradient is not quite the derivative of the value here, as at kinks of contact.

@@ -21,13 +21,14 @@ public:
         return added;
     }
 
-    /// Takes away a term, and all that were added behind it.
+    /// Removes a term, and all that were added after it.
     void remove_from(const Potential<Dim>& term);
 
     /// Evaluates all terms, unless that is what was done last.
     void update(const Positions<Dim>& x);
 
-    /// After something that a term holds has changed: update() evaluates in any case.
+    /// Makes the next update() evaluate in any case: to be called where something that a term holds
+    /// has changed.
     void invalidate() { is_valid_ = false; }
 
     /// The gradient of one of the terms at the positions last evaluated, Dim x vertices, N.
@@ -37,9 +38,8 @@ public:
     [[nodiscard]] const Positions<Dim>& positions() const { return x_; }
 
     [[nodiscard]] double value() const { return value_; }  ///< J.
-    [[nodiscard]] const Positions<Dim>& gradient() const {
-        return gradient_;
-    }  ///< Dim x vertices, N.
+    /// Dim x vertices, N.
+    [[nodiscard]] const Positions<Dim>& gradient() const { return gradient_; }
 
     [[nodiscard]] std::vector<TermEnergy> energies() const;
     void set_time(const TimeSpan& step);

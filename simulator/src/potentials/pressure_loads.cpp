@@ -26,7 +26,7 @@ using Square = Eigen::Matrix<double, Dim, Dim>;
 template <int Dim>
 using Corners = Eigen::Matrix<double, Dim, Dim>;  // a column each
 
-// G with u . G v = det[u, v, others]: antisymmetric.
+// The matrix G with u . G v = det[u, v, others]: antisymmetric.
 Square<3> dual(const Eigen::Matrix<double, 3, 1>& others) {
     Square<3> G;
     G << 0, others[2], -others[1], -others[2], 0, others[0], others[1], -others[0], 0;
@@ -80,8 +80,9 @@ Corners<Dim> corners_of(const Eigen::Matrix<std::uint32_t, Dim, 1>& facet,
     return corners;
 }
 
-// What closes a surface: a wall for each ridge of its rim, the apex first. A ridge is of the rim
-// as often as the facets at it go one way round more often than the other.
+// Walls that close a surface: one for each ridge of its rim, with the apex first. The rim is the
+// boundary of the surface as a chain: each ridge as often as facets have it in one orientation more
+// often than in the other.
 template <int Dim>
 std::vector<Eigen::Matrix<std::uint32_t, Dim, 1>> walls_of(const Simplices<Dim>& facets) {
     using Ridge = std::array<std::uint32_t, Dim - 1>;
@@ -119,7 +120,8 @@ std::vector<Eigen::Matrix<std::uint32_t, Dim, 1>> walls_of(const Simplices<Dim>&
     return walls;
 }
 
-// Facets of a body's boundary of which every corner is selected, of all bodies counted through.
+// The facets of a body's boundary that have every corner selected, by vertices of all bodies
+// counted through.
 template <int Dim>
 Simplices<Dim> select_facets(const Load& load, const Bodies<Dim>& bodies, std::size_t body) {
     const SimplexMesh<Dim>& mesh = bodies.meshes[body];
@@ -201,7 +203,7 @@ typename PressureLoads<Dim>::PressedSurface PressureLoads<Dim>::make_pressed(
     return pressed;
 }
 
-// The apex and the walls' part of the gradient, as at x.
+// Takes the apex, and the walls' part of the gradient that is taken off, from positions x.
 template <int Dim>
 void PressureLoads<Dim>::hold_walls(PressedSurface& pressed, const Positions<Dim>& x) {
     if (pressed.rim.empty()) {
@@ -294,10 +296,11 @@ double PressureLoads<Dim>::evaluate(const Positions<Dim>& x, Positions<Dim>& gra
     return stored_ + lagged_;
 }
 
-// The second derivative of pressure times volume: a facet's part of it is p / (2 Dim) times
-// slope_b + slope_a^T for its corners a and b, with as many eigenvalues below 0 as above. Only the
-// sum over all facets lets the body move as a whole for nothing. Filtered one by one they would
-// hold it back, and a single linear solve would not let it fall: so the filtered Hessian is none.
+// The second derivative of pressure times volume: a facet's part of it is p / (2 Dim) times slope_b
+// + slope_a^T for its corners a and b, with as many eigenvalues below 0 as above. Only in the sum
+// over all facets do rigid motions of the body cost nothing. Filtered facet by facet, the Hessian
+// would hold the body back, and a single linear solve would not let it fall: so with a filter it is
+// left out.
 template <int Dim>
 void PressureLoads<Dim>::add_hessian(const Positions<Dim>& x,
                                      double weight,

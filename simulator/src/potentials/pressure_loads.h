@@ -16,9 +16,9 @@ namespace pent::simulator {
 ///
 /// On a closed surface that is minus the gradient of pressure times the volume V inside. A surface
 /// with a rim is closed by walls: facets from the ridges of the rim to an apex, the mean of the
-/// rim's vertices at the start of a step, which does not move. Pressure times the volume inside
-/// pushes every vertex but those of the rim as it should; on these there is the force on the walls
-/// in addition, and that force as it is at the start of a step is taken off again:
+/// rim's vertices at the start of a step, which does not move. The gradient of pressure times the
+/// volume inside is right at every vertex but those of the rim; these feel the pressure on the
+/// walls in addition. That additional force, as it is at the start of a step, is taken off again:
 ///
 ///     E(x) = p V(x) - (p dV_walls(x_start)) . (x - x_start).
 ///

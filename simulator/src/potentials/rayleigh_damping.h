@@ -9,11 +9,11 @@
 
 namespace pent::simulator {
 
-/// The part of Rayleigh damping that stiffness makes: 1/2 |x - origin|_K^2, K being the elastic
-/// tangent at the start of the step.
+/// The part of Rayleigh damping that is proportional to stiffness: 1/2 |x - origin|_K^2, K being
+/// the elastic tangent at the start of the step.
 ///
-/// A step of a single linear solve has that tangent in its matrix already: there this is nothing,
-/// and the elastic term takes its weight.
+/// A step of a single linear solve has that tangent in its matrix already: there this term is zero,
+/// and a factor on the elastic Hessian takes its place, see Elasticity::set_hessian_factor().
 template <int Dim>
 class RayleighDamping final : public Potential<Dim> {
 public:

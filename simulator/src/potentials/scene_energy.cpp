@@ -14,7 +14,7 @@ namespace pent::simulator {
 
 namespace {
 
-// None if nothing has friction. Bodies rub on obstacles without [contact], too.
+// Nothing if nothing has friction. Bodies rub on obstacles without [contact], too.
 std::optional<contact::Friction> friction_law(const Scene& scene) {
     const ContactSettings settings = scene.contact.value_or(ContactSettings{});
     contact::Friction law{settings.friction, settings.slip_speed};

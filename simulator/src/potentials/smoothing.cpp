@@ -49,7 +49,7 @@ std::vector<Side> sorted_sides(const Simplices<Dim + 1>& cells,
     return sides;
 }
 
-// Rest gradients of the corners of a cell times its volume, a column each.
+// Gradients at rest of the shape functions of a cell, a column each, times its volume.
 template <int Dim>
 struct WeighedCell {
     Eigen::Matrix<double, Dim, Dim + 1> gradients;

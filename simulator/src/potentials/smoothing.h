@@ -13,9 +13,9 @@ namespace pent::simulator {
 /// of a mesh of linear simplices.
 ///
 /// A domain has an equal share of the volume of each cell at its edge, and the mean of their
-/// deformation gradients, weighted by those shares: F = sum over corners of x_a g_a^T. The energy
-/// is that of the material at F, times the volume. It locks far less in bending than that of cells,
-/// and has no zero-energy motions but the rigid ones.
+/// deformation gradients, weighted by those shares: F = sum over corners of x_a g_a^T. Its energy
+/// is that of the material at F, times its volume. Such elements lock far less in bending than
+/// cells, and have no zero-energy modes but the rigid ones.
 template <int Dim>
 struct SmoothingDomains : CornerLists {  // corners increase within a domain
     Positions<Dim> gradients;            ///< A column for each corner, 1/m; they add up to zero.

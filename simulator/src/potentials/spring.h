@@ -49,7 +49,7 @@ struct Spring {
         return sum;
     }
 
-    /// Takes u from the start of a step.
+    /// Sets what u is measured from at the start of a step.
     void begin_step(double rate, const Positions<Dim>& origin) {
         start = rate * weighted_sum(origin) + velocity;
     }

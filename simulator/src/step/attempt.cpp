@@ -14,25 +14,25 @@ namespace pent::simulator {
 
 namespace {
 
-// Corrections below this part of the scene's extent are none; of an extent of at most so many times
-// that of the smallest body, which is seen where others are far larger, or far away; and those that
-// drown in the rounding of places, by this part of them.
+// Newton steps are negligible below this part of the scene's extent, which counts as at most so
+// many times that of the smallest body: that has to be resolved where others are far larger, or far
+// away. Below the rounding of coordinates, this part of the largest, they are negligible, too.
 constexpr double kNegligible = 1e-10;
 constexpr double kMaxOfSmallest = 1e3;
 constexpr double kRoundingOfPlaces = 1e-13;
 
-// With a barrier, Newton's method has converged as well where a correction, taken whole, was below
-// this many times its tolerance of the distance of contact, and the residual is below as many times
-// what it asks for: two thousandths of either, by default.
+// With a barrier, Newton's method has also converged after a full step below this many times its
+// least one, where the residual is below as many times the tolerance: both are two thousandths, of
+// the activation distance and of the residual at the start, by default.
 constexpr double kSettled = 20;
 
-// Nothing sane moves by so many of the scene's extent in a step, and beyond it crossings drown in
-// rounding.
+// A step in which something moves by so many extents of the scene has diverged; farther out
+// crossings would drown in rounding.
 constexpr double kMaxExtents = 1e3;
 
-// With a barrier, Newton's method comes back from a correction that goes as far, of a state far
-// from rest, but not from so many in a row: what is in the way cuts each of them to less than what
-// comes next, and each is a search among all there is.
+// With a barrier, Newton's method recovers from one Newton step as long as that, which a state far
+// from rest may lead to: collision detection cuts it short. From so many in a row it does not, and
+// each costs a search among all that lies on so long a way.
 constexpr int kMaxAstray = 3;
 
 // Dirichlet vertices have arrived when they are this part of the scene's extent from their place.
@@ -41,7 +41,7 @@ constexpr double kArrived = 1e-14;
 constexpr int kMaxIterations = 50;
 constexpr int kMaxBoundedIterations = 150;
 
-// Of a damped step: it brings a body back as surely as twice as many, which cost more in all.
+// Iterations of a damped step: twice as many bring back no more bodies, and cost more in all.
 constexpr int kDampedIterations = 4;
 
 // Where what is held now is to be at a time.
@@ -79,9 +79,10 @@ void Simulation<Dim>::Stepper::set_velocities(const StepProblem<Dim>& problem, d
     still(next_.velocities);
 }
 
-// Why the new state is beyond bounds that only a failed step leaves; empty if it is not. What moves
-// at its end may become elastic energy, of Newton's method; a linear step gone astray makes both. A
-// damped step gains no energy but what held vertices that move put into it.
+// Why the new state can only be that of a failed step; empty if it need not be. With Newton's
+// method the kinetic energy at the end is in the budget, since it may become elastic; a linear step
+// that diverges makes both from nothing. A damped step gains no energy but what held vertices that
+// move put into it.
 template <int Dim>
 std::string Simulation<Dim>::Stepper::excess(const Energies& before, Method method) const {
     constexpr double kMaxGrowth = 1e2;
@@ -99,9 +100,10 @@ std::string Simulation<Dim>::Stepper::excess(const Energies& before, Method meth
                : "";
 }
 
-// Why something may have got through in one step; empty if nothing has moved so far. Penalties see
-// only what is near or inside at the end of a step. With a barrier Newton's method crosses nothing
-// on its way, but that may lead around what is in the way.
+// Why something may have passed through something else in one step (tunneling); empty if nothing
+// has moved so far. Penalties see only what is near or inside at the end of a step. With a barrier
+// no iterate of Newton's method crosses anything, but all of them together may lead around what is
+// in the way.
 template <int Dim>
 std::string Simulation<Dim>::Stepper::tunneling() const {
     if (energy_.contact->is_empty()) {
@@ -133,7 +135,7 @@ std::string Simulation<Dim>::Stepper::tunneling() const {
     return passed.empty() ? "" : passed + " in one step, unseen by penalties" + kAdvice;
 }
 
-// The length of a correction of Newton's method that is none, m.
+// The length below which a Newton step is negligible, m.
 template <int Dim>
 double Simulation<Dim>::Stepper::negligible_correction() const {
     const double rounding = kRoundingOfPlaces * current_.positions.cwiseAbs().maxCoeff();
@@ -141,17 +143,17 @@ double Simulation<Dim>::Stepper::negligible_correction() const {
                     std::min(kNegligible * extent_, rounding));
 }
 
-// Newton's method without a barrier: Dirichlet vertices are at their places from the beginning, and
-// the first iteration spreads their motion over all. If the value is larger there than with every
-// free vertex where it was, the method begins here. A damped step is a few iterations of the same:
-// its energy is bounded, as they only ever lower what is minimized.
+// Newton's method without a barrier. Dirichlet vertices are at their places from the beginning, and
+// a first, linear iteration spreads their motion over all others. If the value is larger after it
+// than with every free vertex where it was, the method begins at the latter. A damped step is a few
+// iterations of the same: its energy is bounded, as they only ever lower what is minimized.
 template <int Dim>
 NewtonReport Simulation<Dim>::Stepper::minimize(Method method) {
     const auto displaced = [&](const Positions<Dim>& x) -> Positions<Dim> {
         return x + potential_.prescribed_displacement(x);
     };
     NewtonStart at_start;
-    {  // whose gradient is not to lie about while the others are found
+    {  // a scope, so that the memory of the gradient is free for what follows
         const Evaluation<Dim> start = potential_.evaluate(displaced(current_.positions));
         at_start = {start.value, potential_.norms(start.gradient)};
     }
@@ -190,7 +192,7 @@ NewtonReport Simulation<Dim>::Stepper::minimize_bounded(const StepProblem<Dim>& 
     NewtonReport report =
         newton(potential_,
                {.tolerance = tolerance,
-                // Corrections that nobody can see, next to the distance of contact.
+                // Steps that are invisible beside the activation distance.
                 .min_correction = std::max(negligible_correction(),
                                            tolerance * std::min(scene_.contact->distance, extent_)),
                 .settled = kSettled,
@@ -269,7 +271,7 @@ typename Simulation<Dim>::Stepper::Attempts Simulation<Dim>::Stepper::attempt(do
                                                                               bool is_damped) {
     Attempts now;
     const auto problem = std::make_shared<const StepProblem<Dim>>(make_problem(time, h));
-    next_.velocities.resize(Dim, 0);  // of no use to the solve, which needs most
+    next_.velocities.resize(Dim, 0);  // frees memory: the solve needs most, and not these
     energy_.sum.set_time({time, time + h});
     if (std::string reason = energy_.contact->obstacle_in_the_way(current_.positions);
         !reason.empty()) {
@@ -285,14 +287,14 @@ typename Simulation<Dim>::Stepper::Attempts Simulation<Dim>::Stepper::attempt(do
     now.newton_iterations = solved.iterations;
     now.unbalanced = std::max(now.unbalanced, solved.residual);
     if (!solved.has_converged) {
-        // Of a body that is strained by more than one matrices may have no solution.
+        // Where strains are above one the matrix of a linear step may have no solution.
         const bool is_astray =
             method == Method::Linear && before.of("elastic") > bodies_.large_energy;
         return now.refuse(solved.failure_reason, is_astray ? Outcome::Astray : Outcome::Refused);
     }
     set_velocities(*problem, time + h);
     if (method == Method::Linear) {
-        energy_.sum.set_time({time, time + h});  // it saw obstacles at the begin
+        energy_.sum.set_time({time, time + h});  // the solve saw obstacles at the start
     }
     energy_.sum.update(next_.positions);
     if (std::string reason = excess(before, method); !reason.empty()) {
@@ -306,7 +308,8 @@ typename Simulation<Dim>::Stepper::Attempts Simulation<Dim>::Stepper::attempt(do
         !pair.empty()) {
         return now.refuse("the step would end where " + pair, Outcome::Refused);
     }
-    // Newton's method has forces at the end of the step: what was run into there has to give way.
+    // Newton's method has contacts at the end of the step: a sleeping body that was run into there
+    // wakes, and gives way in another attempt.
     if (method != Method::Linear && wake_for(problem->prescribed)) {
         now.add(attempt(time, h, is_damped));
         return now;
@@ -327,7 +330,7 @@ typename Simulation<Dim>::Stepper::Attempts Simulation<Dim>::Stepper::advance(do
     Attempts all = attempt(time, h, false);
     if (all.outcome == Outcome::Astray) {
         Attempts damped = attempt(time, h, true);
-        damped.failure = all.failure;  // what to change, whatever becomes of it
+        damped.failure = all.failure;  // tells what to change, even if the damped step succeeds
         all.add(damped);
     }
     if (all.outcome == Outcome::Taken || depth >= scene_.solver.max_halvings) {

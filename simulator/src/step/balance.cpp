@@ -11,7 +11,7 @@ std::vector<double> to_list(const Vector<Dim>& vector) {
     return {vector.begin(), vector.end()};
 }
 
-// Of the bivector a - a^T, one a plane.
+// Components of the bivector a - a^T, one for each plane.
 template <int Dim>
 std::vector<double> plane_components(const Matrix<Dim>& a) {
     std::vector<double> components;

@@ -25,7 +25,7 @@ template <int Dim>
 template <int Dim>
 [[nodiscard]] Positions<Dim> reactions(const HeldVertices<Dim>& held, const Positions<Dim>& forces);
 
-/// What each constraint holds its vertices with: the reactions of these, together.
+/// The force and moment with which each constraint holds its vertices: the sums of their reactions.
 template <int Dim>
 [[nodiscard]] std::vector<ConstraintSummary> constraint_summaries(const HeldVertices<Dim>& held,
                                                                   const Positions<Dim>& positions,

@@ -12,14 +12,14 @@ namespace pent::simulator {
 
 namespace {
 
-// Pieces of one material count as all alike if volumes of their vertices are, in the mean, within
-// this factor, which spares a norm.
+// Pieces of one material count as alike, which spares a norm, if the mean volumes of their vertices
+// are within this factor.
 constexpr double kAlike = 10;
 
 using AnyCells = Eigen::Ref<const Eigen::Matrix<std::uint32_t, Eigen::Dynamic, Eigen::Dynamic>>;
 
-// The lowest vertex of the piece of a mesh that each vertex is in: what hangs together by cells, of
-// which ranks have some each.
+// The lowest vertex of the piece that each vertex is in: connected components by cells, of which
+// ranks have some each. Union-find with path halving.
 std::vector<std::uint32_t> find_pieces(const AnyCells& cells,
                                        Eigen::Index vertices,
                                        const Sharing& sharing) {
@@ -42,7 +42,7 @@ std::vector<std::uint32_t> find_pieces(const AnyCells& cells,
             join(cells(0, cell), cells(corner, cell));
         }
     }
-    // Until no rank learns more of what others have joined.
+    // Repeats until no rank learns more of what others have joined.
     for (bool is_new = sharing.is_shared(); is_new;) {
         Eigen::Matrix<double, 1, Eigen::Dynamic> told(lowest.size());
         for (std::uint32_t vertex = 0; vertex < lowest.size(); ++vertex) {
@@ -61,7 +61,7 @@ std::vector<std::uint32_t> find_pieces(const AnyCells& cells,
     return lowest;
 }
 
-// The largest number of the materials that a vertex has, one a vertex.
+// The largest value, among the materials of the cells at each vertex, of a number of a material.
 template <int Dim>
 Eigen::VectorXd largest_at(const Bodies<Dim>& bodies, double (*number)(const Material&)) {
     Eigen::Matrix<double, 1, Eigen::Dynamic> of_vertices =
@@ -78,8 +78,8 @@ Eigen::VectorXd largest_at(const Bodies<Dim>& bodies, double (*number)(const Mat
     return of_vertices.transpose();
 }
 
-// The volume that belongs to a vertex of the piece that each vertex is in, in the mean, m^Dim: of
-// its densest material. Empty if all are about alike.
+// The mean volume of a vertex of the piece that each vertex is in, m^Dim, by its mass and its
+// densest material. Empty if all are about alike.
 template <int Dim>
 Eigen::VectorXd volumes_by_piece(const Bodies<Dim>& bodies) {
     const std::vector<std::uint32_t> pieces =
@@ -104,8 +104,8 @@ Eigen::VectorXd volumes_by_piece(const Bodies<Dim>& bodies) {
     return volumes.maxCoeff() < kAlike * volumes.minCoeff() ? Eigen::VectorXd() : volumes;
 }
 
-// The largest of a number of materials, times a power of the volume of a vertex, over the largest
-// of those that each vertex has; empty if all are alike.
+// The largest product of a number of materials and a power of the volume, over that at each vertex;
+// empty if all are alike.
 //
 // @param volumes  One a vertex; empty if they are alike.
 template <int Dim>

@@ -7,34 +7,36 @@
 
 namespace pent::simulator {
 
-/// How large forces are on some vertices beside those on others that are strained as much or
-/// accelerated alike, by what they are made of and how much of it belongs to each. Beside steel the
-/// forces on rubber are no more than a rounding, and beside a large body those on a small one, and
-/// yet they have to be balanced: so what is left of them is told in several norms.
+/// Norms in which residual forces are measured. Beside the forces on steel those on rubber are no
+/// more than a rounding, and so are those on a small body beside a large one, and yet all of them
+/// have to be balanced. So the residual is measured in further norms, too, in which the force on
+/// each vertex counts relative to what equal strains, or equal accelerations, would cause there.
 template <int Dim>
 class ForceScales {
 public:
-    /// @param bodies  A vertex of several materials counts as of the stiffest, or densest.
+    /// @param bodies  A vertex of several materials counts as of the stiffest, or of the densest.
     explicit ForceScales(const Bodies<Dim>& bodies);
 
     /// Whether densities count: in a step with inertia.
     void set_inertia(bool has_inertia) { has_inertia_ = has_inertia; }
 
-    /// The norm of a gradient; that with every part over the stiffness there times the surface of
-    /// what belongs to a vertex of the piece, if that is not about the same everywhere; and that
-    /// over the mass of such a vertex, likewise. What is largest counts as it is. A piece is what
-    /// hangs together of a body.
+    /// The norm of a gradient; its norm with the force on each vertex divided by the shear modulus
+    /// there times V^((Dim - 1) / Dim), V being the mean volume of a vertex of the same piece; and,
+    /// with inertia, with each divided by the density times V. The largest divisor is scaled to 1;
+    /// a norm whose divisors are about the same everywhere is left out. A piece is a connected
+    /// component of a mesh.
     ///
     /// @param gradient  Dim x vertices.
     [[nodiscard]] GradientNorms norms(const Positions<Dim>& gradient) const;
 
-    /// Of the squares of forces on the vertices of these rows in all norms but the first.
+    /// For all norms but the first: weights of the squared forces on the vertices of these rows.
     [[nodiscard]] std::vector<Eigen::VectorXd> weights(const DofMap& rows) const;
 
 private:
     [[nodiscard]] std::vector<const Eigen::VectorXd*> scales() const;
 
-    // What is largest over what is there, one a vertex; empty if the same everywhere.
+    // Factors of the force on each vertex: the largest divisor over that there; empty if all are
+    // alike.
     Eigen::VectorXd by_stiffness_;
     Eigen::VectorXd by_density_;
     bool has_inertia_ = true;

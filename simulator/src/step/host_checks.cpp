@@ -19,7 +19,7 @@ std::string place_of(std::int64_t index, std::int64_t count) {
     return std::to_string(index) + " of " + std::to_string(count);
 }
 
-// Barycentric coordinates are sums of rounded numbers.
+// How far the sum of barycentric coordinates may be from 1, by rounding.
 constexpr double kRounding = 1e-9;
 
 }  // namespace

@@ -15,7 +15,7 @@ namespace pent::simulator {
 
 namespace {
 
-// The same vertices as this rank has them in its matrix: in the same order where there is but one.
+// The same dofs in the order of the rows of this rank; of one process alone the same map.
 template <int Dim>
 std::shared_ptr<const DofMap> rows_of(const std::shared_ptr<const DofMap>& alike,
                                       const Bodies<Dim>& bodies,
@@ -89,7 +89,7 @@ void IncrementalPotential<Dim>::renumber(const HeldVertices<Dim>& held,
     set_up_solver();
 }
 
-// Where the dofs of other ranks are at home.
+// Which rank owns each dof of the matrix, and its place there.
 template <int Dim>
 DofOwners IncrementalPotential<Dim>::find_owners() const {
     const Sharing& sharing = bodies_->sharing;
@@ -214,7 +214,7 @@ void IncrementalPotential<Dim>::tell_start(const Positions<Dim>& x) const {
     }
 }
 
-// Returns whether inertia is still there.
+// Returns false where the matrix is of no use, as the masses have been lost in its rounding.
 template <int Dim>
 bool IncrementalPotential<Dim>::assemble(NewtonSystem<Dim>& system,
                                          Filter filter,
@@ -222,7 +222,7 @@ bool IncrementalPotential<Dim>::assemble(NewtonSystem<Dim>& system,
                                          const Positions<Dim>& displacement) {
     const Stopwatch watch;
     const Positions<Dim>& x = energy_->positions();
-    // A power of two changes no bit, and what all of an equation is divided by no solution.
+    // To scale by a power of two is exact, and to scale a whole equation leaves its solution.
     const double part = 1 / range_.unit(problem_->inertia, problem_->scale);
     system.begin(-part * at_dofs(*rows_, gradient), displacement);
     double others = 0;  // seconds, which terms count themselves
@@ -254,8 +254,8 @@ bool IncrementalPotential<Dim>::assemble(NewtonSystem<Dim>& system,
 }
 
 // In float, or in double where float does not hold the numbers or masses would be lost in its
-// rounding; null if they are lost in double, too. Which of both is assembled first saves time and
-// tells nothing of what comes out.
+// rounding; null if they are lost in double, too. Which of the two is tried first saves time and
+// does not change the result.
 template <int Dim>
 NewtonSystem<Dim>* IncrementalPotential<Dim>::assemble_somehow(Filter filter,
                                                                const Positions<Dim>& gradient,
@@ -288,7 +288,7 @@ LinearSolution<Dim> IncrementalPotential<Dim>::solve_filtered(const NewtonSystem
                                      .max_iterations = options_.max_iterations,
                                      .weights = scales_.weights(*rows_)};
     const Positions<Dim>& x = energy_->positions();
-    // Where all is to be solved for at once, most of it is the motion that inertia alone leads to.
+    // A single linear solve has the whole step to find: most of it is what inertia alone would do.
     BlockVector<Dim> guess = tolerance == 0
                                  ? at_dofs<Dim>(*rows_, problem_->target - x)
                                  : BlockVector<Dim>(BlockVector<Dim>::Zero(Dim, rows_->count()));
@@ -317,7 +317,8 @@ NewtonDirection<Dim> IncrementalPotential<Dim>::solve(const Positions<Dim>& grad
                 " thicker cells";
             return direction;
         }
-        // Of the matrix that is solved with: whether another was tried first is nobody's business.
+        // Only the matrix that is solved with counts, so that reports do not depend on which
+        // precision was tried first.
         work_.hessians += elasticity_->element_count();
         work_.filtered += elasticity_->filtered();
         work_.unknowns += std::int64_t{Dim} * dofs_->count();

@@ -28,9 +28,9 @@ struct SolveWork {
     double solve_seconds = 0;
 };
 
-/// What the end of a time step minimizes, see StepProblem: a weighted sum of terms over the
-/// vertices that have dofs. The one place that knows how terms are weighted, which vertices are
-/// free, and how the linear equations are solved.
+/// The function that the end of a time step minimizes, see StepProblem: a weighted sum of terms
+/// over the vertices that have dofs. The one place that knows how terms are weighted, which
+/// vertices are free, and how the linear equations are solved.
 template <int Dim>
 class IncrementalPotential final : public Objective<Dim> {
 public:

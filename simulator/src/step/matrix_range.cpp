@@ -8,8 +8,8 @@ namespace pent::simulator {
 
 namespace {
 
-// Floats are whole from 2^-126 on and end at 2^128. Cells are smaller than what belongs to a
-// vertex, and entries of blocks may be small beside others.
+// Floats are normal from 2^-126 on and end at 2^128. The rest is room: cells are smaller than what
+// belongs to a vertex, and entries of blocks may be small beside others.
 constexpr double kHeld = 113;
 // Entries within this of 1 are left as they are.
 constexpr double kNear = 66;
@@ -49,7 +49,7 @@ MatrixRange::Span MatrixRange::inertia(double weight) const {
     return {mass_.low + exponent_of(weight), mass_.high + exponent_of(weight)};
 }
 
-// Both are on the diagonal.
+// Masses and stiffness are added on the diagonal, where the larger counts.
 MatrixRange::Span MatrixRange::entries(double weight, double scale) const {
     const Span masses = inertia(weight);
     const Span others = stiffness(scale);

@@ -32,7 +32,8 @@ Corners<Dim> corners_of(const Simulation<Dim>& simulation, int body, Eigen::Inde
     return corners;
 }
 
-// The part of a line on which a number that changes from `value` by `slope` is not negative.
+// The interval of a ray on which a number that is `value` at its origin and changes by `slope` is
+// not negative.
 struct Span {
     double begin = 0;
     double end = std::numeric_limits<double>::infinity();

@@ -122,7 +122,7 @@ void agree(const Ranks* ranks, const std::function<void()>& work) {
     if (first == sizes.end()) {
         return;
     }
-    // Text goes as numbers: it is the rare case, and short.
+    // Text travels as numbers, for which there is a way: it is rare, and short.
     std::vector<std::int64_t> lengths(sizes.size(), 0);
     lengths[static_cast<std::size_t>(first - sizes.begin())] =
         static_cast<std::int64_t>(*first) - 1;

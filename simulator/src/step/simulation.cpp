@@ -76,7 +76,7 @@ void check_state(const std::string& what,
     check_array<Dim>("velocities" + what, velocities, count);
 }
 
-// Of a barrier.
+// Checks the stiffness of a barrier.
 void check_stiffness(double stiffness, bool may_be_zero) {
     if (!std::isfinite(stiffness) || stiffness < 0 || (stiffness == 0 && !may_be_zero)) {
         throw Error(formatted("a contact stiffness of %g N/m was given; expected a finite one %s 0",

@@ -17,7 +17,7 @@ namespace pent::simulator {
 
 namespace {
 
-// Of a simulation whose meshes are placed already.
+// The same scene for meshes that have been placed already.
 Scene placed(Scene scene) {
     for (Body& body : scene.bodies) {
         body.place = Placement();
@@ -26,8 +26,8 @@ Scene placed(Scene scene) {
     return scene;
 }
 
-// Removes a body from the pairs of [contact]. With the last of `only` every pair is ignored: an
-// empty `only` lets all see each other.
+// Removes a body from the pairs of [contact]. If it was in all pairs of `only`, an empty `only`,
+// which lets all bodies meet, would turn the meaning around: then every pair is ignored.
 void remove_from_pairs(const std::string& body, Scene& scene) {
     const auto has_it = [&](const BodyPair& pair) {
         return pair.first == body || pair.second == body;
@@ -137,7 +137,7 @@ void wake(const std::vector<std::size_t>& bodies, Snapshot<Dim>& snapshot) {
     }
 }
 
-// Nobody has the meshes that would be made anew.
+// Changes make bodies anew from whole meshes, which no rank has.
 template <int Dim>
 void refuse_parts(const Bodies<Dim>& bodies) {
     if (is_of_parts(bodies)) {
@@ -167,7 +167,7 @@ void Simulation<Dim>::add_body(const Body& body, SimplexMesh<Dim> mesh) {
     snapshot.velocities.conservativeResize(Dim, count);
     snapshot.positions.rightCols(count - before) = begin.positions.rightCols(count - before);
     snapshot.velocities.rightCols(count - before) = begin.velocities.rightCols(count - before);
-    // BDF2 would need what the body did a step ago: it begins anew.
+    // BDF2 would need where the body was a step ago: it begins anew, with a step of Euler.
     snapshot.previous_positions.resize(Dim, 0);
     snapshot.previous_velocities.resize(Dim, 0);
     snapshot.sleep.emplace_back();

@@ -15,7 +15,7 @@ namespace {
 
 using CoupledPair = std::pair<std::size_t, std::size_t>;
 
-// Marks what is coupled to something marked that may pass it on, until nothing is new.
+// Marks what is coupled to something marked and may be marked, until nothing is new.
 template <typename CanTake>
 void spread(const std::vector<CoupledPair>& pairs,
             const CanTake& can_take,
@@ -133,7 +133,7 @@ bool Islands<Dim>::put_to_sleep(const Couplings& couplings,
     if (!can_sleep) {
         return false;
     }
-    // What is kinematic passes nothing on: it moves as told.
+    // Kinematic bodies pass nothing on: they move as told, whatever touches them.
     spread(
         couplings.pairs, [&](std::size_t body) { return !is_kinematic_[body]; }, is_moving);
     bool has_slept = false;

@@ -27,7 +27,7 @@ public:
     /// One entry a body: whether it sleeps.
     [[nodiscard]] std::vector<bool> asleep() const;
 
-    /// Of a barrier, one a body, N/m: with which it fell asleep; 0 of those that are awake.
+    /// One a body: the stiffness of a barrier when it fell asleep, N/m; 0 for those that are awake.
     [[nodiscard]] std::vector<double> stiffness_of_sleepers() const;
 
     [[nodiscard]] bool is_on() const { return is_on_; }
@@ -60,7 +60,7 @@ private:
     bool is_on_;
     std::uint64_t steps_to_sleep_ = 0;
     std::vector<double> speed_;       // below which a body is at rest, m/s
-    std::vector<bool> is_kinematic_;  // neither awake nor asleep
+    std::vector<bool> is_kinematic_;  // moved from outside alone: neither awake nor asleep
     std::vector<SleepState> states_;
 };
 

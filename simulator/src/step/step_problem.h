@@ -32,7 +32,8 @@ struct PrescribedPlaces {
     }
 };
 
-/// What the end x of a time step minimizes, Dirichlet vertices being where their motion has them:
+/// The incremental potential of a time step, which the end x of the step minimizes, Dirichlet
+/// vertices being where their motion has them:
 ///
 ///     phi(x) = inertia/2 |x - target|_M^2 + scale E(x)
 ///            + scale rate/2 (a |x - origin|_M^2 + b |x - origin|_K^2)
@@ -43,11 +44,11 @@ struct PrescribedPlaces {
 template <int Dim>
 struct StepProblem {
     double inertia = 1;                ///< 0 for statics.
-    double scale = 0;                  ///< s^2; m^0 for statics.
+    double scale = 0;                  ///< s^2; 1, without unit, for statics.
     double rate = 0;                   ///< 1/s.
     double time = 0;                   ///< At the end of the step, s.
     Positions<Dim> target;             ///< Dim x vertices: where inertia alone would carry them, m.
-    Positions<Dim> origin;             ///< Dim x vertices, m.
+    Positions<Dim> origin;             ///< Dim x vertices: see the velocity above, m.
     PrescribedPlaces<Dim> prescribed;  ///< Dirichlet vertices.
 };
 

@@ -90,8 +90,9 @@ void Simulation<Dim>::Stepper::evaluate_current() {
     }
 }
 
-// The same of a state that no step has led to: what terms hold of the last one (normal forces of
-// friction, walls of pressure) is of another state.
+// The same for a state that no step has led to, as after a restore: what terms hold from the start
+// of a step (normal forces of friction, walls of pressure) is still that of another state, and is
+// taken anew from this one.
 template <int Dim>
 void Simulation<Dim>::Stepper::evaluate_anew() {
     evaluate_current();
@@ -226,7 +227,7 @@ void Simulation<Dim>::Stepper::number_dofs_of_the_free() {
     static_cast<void>(energy_.contact->set_sleepers(islands_.stiffness_of_sleepers()));
 }
 
-// Holds and lets go what constraints ask for in the step that begins.
+// Takes hold of vertices, and lets go of them, as constraints ask for in the step that begins.
 template <int Dim>
 void Simulation<Dim>::Stepper::hold_and_release() {
     const std::vector<std::size_t> changed = held_.hold(steps_, current_.positions);
@@ -266,7 +267,8 @@ bool Simulation<Dim>::Stepper::wake_for(const PrescribedPlaces<Dim>& prescribed)
     return true;
 }
 
-// Wakes what lies on obstacles that are about to move: in the end they may be far from it.
+// Wakes what lies on obstacles that are about to move: at the end of the step, where contacts are
+// evaluated, it may be far from them.
 template <int Dim>
 void Simulation<Dim>::Stepper::wake_on_obstacles(const TimeSpan& step) {
     if (islands_.asleep_count() > 0
@@ -343,7 +345,7 @@ StepReport Simulation<Dim>::Stepper::step() {
     const bool is_driven = !strain().changing_bodies(span.begin, span.end).empty();
     const Positions<Dim> start = is_driven ? current_.positions : Positions<Dim>(Dim, 0);
     const double stiffness_before = energy_.contact->stiffness();
-    StepReport work_between;  // of looking at the state between steps: of nobody's step
+    StepReport work_between;  // what was evaluated between steps counts in no step: dropped
     add_work(work_between);
     StepReport report;
     const Attempts attempts = workers_.run([&] { return advance(time(), scene_.dt(), 0); });

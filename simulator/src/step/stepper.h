@@ -18,8 +18,8 @@
 
 namespace pent::simulator {
 
-/// What is behind a Simulation: the state, how it takes a step, and who sleeps. Between calls the
-/// potential energy is that of the current positions.
+/// The implementation of Simulation: its state, how it takes a step, and who sleeps. Between calls
+/// the potential energy has been evaluated at the current positions.
 template <int Dim>
 class Simulation<Dim>::Stepper {
 public:
@@ -31,8 +31,8 @@ public:
             std::vector<SimplexMesh<Dim>> meshes,
             const SimulationOptions& options);
 
-    /// Looks at the start for the first time. Throws a CrossingError as the constructor of
-    /// Simulation does.
+    /// Checks the start for crossings and finds its forces. Throws a CrossingError as the
+    /// constructor of Simulation does.
     void start();
 
     StepReport step();
@@ -74,9 +74,9 @@ public:
     [[nodiscard]] Isa isa() const { return isa_; }
 
 private:
-    enum class Method { Linear, Newton, Damped };   // the last for linear steps gone astray
-    enum class Outcome { Taken, Astray, Refused };  // astray: a damped step may save it
-    // What became of one attempt or of several, the last of which has the outcome.
+    enum class Method { Linear, Newton, Damped };   // the last where a linear step has diverged
+    enum class Outcome { Taken, Astray, Refused };  // astray: diverged, a damped step may succeed
+    // What became of one attempt at a step or of several; the outcome is that of the last.
     struct Attempts {
         Outcome outcome = Outcome::Taken;
         std::string failure;  // why the last one that was thrown away was; empty if none

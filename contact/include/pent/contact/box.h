@@ -23,7 +23,7 @@ struct alignas(16) Box {
                && Four::load_aligned(b.low) <= Four::load_aligned(a.high));
 }
 
-/// What overlaps nothing; around it and another box is the other.
+/// An empty box: it overlaps nothing, and its hull with another box is the other.
 inline constexpr Box kNowhere = [] {
     constexpr float kFar = std::numeric_limits<float>::infinity();
     return Box{{kFar, kFar, kFar, kFar}, {-kFar, -kFar, -kFar, -kFar}};

@@ -42,7 +42,8 @@ public:
     /// Splits at the median along the longest side of the centers, in time n log n.
     explicit BoxTree(std::span<const Box> boxes);
 
-    /// Over boxes of which neighbors follow each other, as its leaves: visits are ascending.
+    /// A tree whose leaves are the boxes in their order, in which neighbors are to follow each
+    /// other: visits are ascending.
     [[nodiscard]] static BoxTree in_order(std::span<const Box> boxes);
 
     /// Fits the same tree around moved boxes, of the same number and order; asserted. Linear time.

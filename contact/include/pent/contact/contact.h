@@ -21,13 +21,14 @@ struct Collider {
 
 enum class ContactKind : std::uint8_t {
     PointFacet,  ///< A vertex and a facet, or faces of these.
-    Mixed,       ///< An edge and a ridge, or faces of these.
+    Mixed,       ///< An edge and a ridge (in R^3 two edges), or faces of these.
     Surface,     ///< A vertex and the smooth surface of an obstacle.
 };
 
-/// What takes the energy of a mixed pair to 0 where it becomes parallel, and its closest points
-/// jump: m(c) = (c / c0) (2 - c / c0) for c < c0, 1 beyond; continuously differentiable. Source:
-/// [li2020] section 5.2, with the spanned volume in place of the cross product.
+/// The factor that takes the energy of a mixed pair to 0 where its simplices become parallel, and
+/// its closest points jump: m(c) = (c / c0) (2 - c / c0) for c < c0, 1 beyond; continuously
+/// differentiable. Source: [li2020] section 5.2, with the spanned volume in place of the cross
+/// product.
 struct Mollifier {
     double threshold = 0;  ///< c0, unit of c; 0 for a pair that needs none.
 
@@ -43,7 +44,7 @@ struct Mollifier {
     }
 };
 
-/// Two faces nearer than the distance of contact, or a vertex and the surface of an obstacle: the
+/// Two faces nearer than the activation distance, or a vertex and the surface of an obstacle: the
 /// one type of contact, whatever the model.
 ///
 /// The distance d of its points changes by direction . sum w_i dx_i. Its energy is psi(d), so that
@@ -58,15 +59,15 @@ struct Contact {
     Vector<Dim> direction = Vector<Dim>::Zero();    ///< Unit length: that in which d grows.
     double distance = 0;                            ///< d, signed, m; negative inside.
     double radius = 0;  ///< m, >= 0: the points are d + radius apart; of an obstacle.
-    double share = 1;   ///< Factor of the energy, held: of a mixed pair that fades, or a
-                        ///< facet that has a vertex in a valley with others.
+    double share = 1;   ///< Factor of the energy, held: of a mixed pair that fades, or of a
+                        ///< facet that shares a vertex in a valley with others.
     double gain = 1;    ///< How fast d grows along direction, held; 1 but in valleys.
     std::int32_t multiplicity = 1;  ///< Pairs of simplices with these as their nearest faces.
     Mollifier mollifier;            ///< Of a mixed pair with all its corners, the edge first.
     Collider first;
     Collider second;
     ContactKind kind = ContactKind::PointFacet;
-    bool is_fading = false;         ///< A penalty that has faded where the pair has crossed deeply.
+    bool is_fading = false;         ///< A penalty that fades out with the depth of a crossing.
     std::uint8_t count = 0;         ///< Vertices that may move, the first ones.
     std::uint8_t first_count = 0;   ///< Corners of the first simplex, which come first.
     std::uint8_t corner_count = 0;  ///< All corners.

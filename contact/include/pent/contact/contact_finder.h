@@ -23,10 +23,10 @@ struct StepLimit {
 ///
 /// Penalty:
 /// - A vertex and another body make one contact, with the nearest facet: at the signed distance of
-///   the vertex to that body's surface, at any depth. Inside is where the surface goes round.
+///   the vertex to that body's surface, at any depth. Inside is where its winding number is above 0.
 /// - An edge and a ridge make a contact where their closest points are inside both. A crossed pair
 ///   is known by the outward normals: the force goes on while the crossing is shallower than
-///   `distance`. Pairs that see each other's back make no contact.
+///   `distance`. Pairs of which only one faces the other make no contact.
 /// - Within a body both kinds are as the second. Pairs that share a vertex, that are nearer than
 ///   `distance` at rest, or look crossed but are nearer than three times that at rest (the two
 ///   sides of something thin) are no contacts.
@@ -65,16 +65,17 @@ public:
     /// Those of a barrier are exact, so the weights move with the corners; those of a penalty hold
     /// them.
     ///
-    /// @param memory  Lists to write to, whatever is in them: those of the last time save that
-    ///                they are allocated anew.
+    /// @param memory  Lists to write to, whatever is in them: those of the last call save an
+    ///                allocation.
     [[nodiscard]] StencilHessians<Dim> hessians(const Contacts<Dim>& contacts,
                                                 const PositionsView<Dim>& positions,
                                                 double stiffness,
                                                 Filter filter,
                                                 StencilHessians<Dim> memory = {}) const;
 
-    /// How far all vertices can go from one place towards another without coming nearer than a
-    /// tenth of their gaps, or of dhat where these are larger. All of it with penalties.
+    /// The largest fraction of the way, by continuous collision detection, that all vertices can go
+    /// from one place towards another with a tenth of every gap left, or of dhat where that is
+    /// less. All of it with penalties.
     [[nodiscard]] StepLimit limit_step(const PositionsView<Dim>& from,
                                        const PositionsView<Dim>& to);
 

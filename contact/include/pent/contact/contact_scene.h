@@ -16,12 +16,12 @@ namespace pent::contact {
 
 struct ContactOptions {
     ContactModel model = ContactModel::Penalty;
-    double distance = 0;    ///< m, > 0: how near is in contact.
-    double separation = 0;  ///< m, >= 0: a distance that a barrier never lets be reached.
+    double distance = 0;    ///< m, > 0: what is nearer is in contact; dhat of [li2020].
+    double separation = 0;  ///< m, >= 0: a barrier keeps all distances above it [li2021].
     bool self = false;      ///< Whether bodies meet themselves.
-    /// m, >= 0: of a penalty. Pairs found are kept until a vertex has moved this far, so that
-    /// evaluations at nearby positions (those of a Newton step) cost little; finding them costs
-    /// more then. 0 keeps nothing. Contacts are the same either way.
+    /// m, >= 0: of a penalty, as the skin of a Verlet list. Pairs found are kept until a vertex has
+    /// moved this far, so that evaluations at nearby positions (those of a Newton step) cost
+    /// little; finding them costs more then. 0 keeps nothing. Contacts are the same either way.
     double margin = 0;
 };
 
@@ -57,12 +57,13 @@ struct ContactScene {
     /// One for each vertex of the scene: moved from outside. Such vertices do not push each other
     /// and are not pushed by obstacles, but a step does not lead them through each other.
     std::vector<bool> is_fixed;
-    /// Of these, the ones that stay so for good, which may go where obstacles are; a step leads no
-    /// other into an obstacle, where it would be when it is let go. Empty: all that are fixed.
+    /// Those of them that are never let go. They may go where obstacles are; a step leads no other
+    /// vertex into an obstacle, which would have it inside when it is let go. Empty: all that are
+    /// fixed.
     std::vector<bool> is_always_fixed = {};
     Positions<Dim> rest;  ///< Rest positions of all vertices, m.
-    /// Pairs of bodies that do not see each other, and of bodies that do not see themselves, by
-    /// their places, ascending, with the lower one first.
+    /// Pairs of bodies that never touch each other, and bodies, as pairs of the same two, that
+    /// never touch themselves: by their places, ascending, with the lower one first.
     std::vector<std::pair<std::uint32_t, std::uint32_t>> ignored = {};
 };
 

@@ -12,7 +12,7 @@ namespace pent::contact {
 struct Friction {
     double coefficient = 0;  ///< mu, >= 0.
     double slip_speed =
-        1e-3;  ///< m/s, > 0: what moves slower than that sticks, as if in thick honey.
+        1e-3;  ///< m/s, > 0: what is slower sticks, by a force as of a viscous fluid.
     /// One for each body, in place of `coefficient`; none if that is all of theirs.
     std::vector<double> of_bodies = {};
     std::vector<double> of_obstacles = {};  ///< The same for obstacles.
@@ -24,8 +24,8 @@ struct Friction {
 /// What friction does to the slip in one step.
 enum class FrictionLaw : std::uint8_t {
     Energy,  ///< Gradient and Hessian of the energy at the slip: for Newton's method.
-    /// The resistance that gives this force at this slip: for one linear solve, which holds it, and
-    /// in place of a Hessian that it is never below, as f1 is concave.
+    /// The secant stiffness, which gives this force at this slip: for one linear solve, which holds
+    /// it, and in place of a Hessian, which it bounds from above, as f1 is concave.
     Secant,
 };
 
@@ -76,8 +76,8 @@ public:
     /// alone, since it starts anew with each.
     double add_gradient(const Positions<Dim>& positions, Positions<Dim>& gradient) const;
 
-    /// One for each contact that has a force. Of contacts whose slip has turned around since this
-    /// was asked before in the step, the secant for some times, where the slip is above e / 2:
+    /// One for each contact that has a force. Where the slip of a contact has turned around since
+    /// the last call in the step it is the secant for some calls, while the slip is above e / 2:
     /// there the energy is a cone with little or no curvature along the slip, over whose tip
     /// Newton's method would go to and fro.
     [[nodiscard]] StencilHessians<Dim> hessians(const Positions<Dim>& positions);
@@ -95,11 +95,11 @@ private:
         int count = 0;          // vertices in use
         Vector<Dim> normal;     // unit length
         double force = 0;       // mu times the normal force, N
-        Vector<Dim> start;      // sum w_i x_i that is no slip at the end of the step, m
-        Block<Dim> resistance;  // held, for a single linear solve; N/m
+        Vector<Dim> start;      // sum w_i x_i at which there is no slip, m
+        Block<Dim> resistance;  // secant stiffness held for a single linear solve, N/m
         Vector<Dim> slip = Vector<Dim>::Zero();  // when the Hessian was last asked for, m
-        int patience = 0;                        // how many secants the last turn around gave it
-        int secants = 0;                         // of these, how many are left
+        int patience = 0;                        // secants that the last turn around led to
+        int secants = 0;                         // how many of these are left
     };
 
     [[nodiscard]] static Vector<Dim> weighted_sum(const Lagged& lagged,

@@ -51,8 +51,8 @@ template <int Dim>
 [[nodiscard]] SignedDistance<Dim> signed_distance(const ObstacleShape<Dim>& obstacle,
                                                   const Vector<Dim>& point);
 
-/// Whether the straight way between two points that are not so deep in an obstacle goes deeper into
-/// it than `depth`; ways that are deeper by less than an eighth of it may be overlooked.
+/// Whether the straight way between two points that are no deeper in an obstacle than `depth` goes
+/// deeper into it; ways that are deeper by less than an eighth of it may be overlooked.
 ///
 /// @param depth  m, > 0.
 template <int Dim>
@@ -65,8 +65,8 @@ template <int Dim>
     return std::visit([](const auto& shape) { return shape.kRepels; }, obstacle);
 }
 
-/// Of an obstacle that repels facets: all points within `radius` of these simplices, and what they
-/// enclose, are the solid.
+/// The core of an obstacle that repels facets: all points within `radius` of these simplices, and
+/// what they enclose, are the solid.
 template <int Dim>
 struct ObstacleCore {
     Surface<Dim> surface;   ///< Of vertices from 0; no faces where the core is a single point.
