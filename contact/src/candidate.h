@@ -98,7 +98,7 @@ class Displacement {
 public:
     float max = 0;  ///< Of all vertices.
 
-    /// Of no vertex.
+    /// Without vertices.
     Displacement() = default;
 
     /// With a place for every vertex from the first to the last of some vertices, and of some

@@ -17,7 +17,7 @@
 
 namespace pent::contact {
 
-/// What the search for candidates took so far.
+/// The work of all searches for candidates so far.
 struct SearchWork {
     std::int64_t searches = 0;  ///< Of two colliders each, or within one.
     std::int64_t overlaps = 0;  ///< As those of a CandidateList.

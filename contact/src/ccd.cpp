@@ -16,7 +16,7 @@ namespace {
 // A bound on the advances, which the gap ends long before.
 constexpr int kMaxAdvances = 10'000;
 
-// Of distances, with room to spare.
+// Relative rounding of distances, with room to spare.
 constexpr double kRounding = 1e-9;
 
 // The time up to which two simplices stay `target` apart along u; 0 if they are not at the start.

@@ -24,7 +24,7 @@ namespace pent::contact {
 /// The part of the gap at the start that is always left.
 inline constexpr double kGapKept = 0.1;
 
-/// Of gaps below this part of that at the start a motion may be stopped.
+/// A motion may be stopped where a gap is below this part of that at the start.
 inline constexpr double kGapReached = 2 * kGapKept;
 
 /// How much room a motion has to leave.

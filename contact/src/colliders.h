@@ -41,7 +41,7 @@ public:
     [[nodiscard]] const Surface<Dim>& surface(int i) const {
         return is_core(i) ? core(i).surface : scene_.bodies[place(i)].surface;
     }
-    /// Those of a core are not at hand.
+    /// The cells of a collider; a core has none.
     [[nodiscard]] std::span<const std::uint32_t> cells(int i) const {
         return is_core(i) ? std::span<const std::uint32_t>() : scene_.bodies[place(i)].cells;
     }
@@ -53,7 +53,7 @@ public:
                           : Collider{Collider::Kind::Body, static_cast<std::uint32_t>(i)};
     }
 
-    /// What belongs to a collider beyond its surface, m.
+    /// How thick a collider is beyond its surface, m: the radius of a core.
     [[nodiscard]] double radius(int i) const { return is_core(i) ? core(i).radius : 0; }
 
     /// Whether contacts of the two, or within one, are looked for at all.
@@ -87,7 +87,7 @@ public:
                            [&](std::uint32_t corner) { return may_enter_obstacles(corner); });
     }
 
-    /// Of all vertices, those of cores too.
+    /// Rest positions of all vertices, those of cores too.
     [[nodiscard]] const Positions<Dim>& rest() const { return rest_; }
 
     /// After the shapes of obstacles have moved.

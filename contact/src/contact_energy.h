@@ -18,7 +18,7 @@ bool evaluate(const DistanceEnergy& energy,
               const PositionsView<Dim>& positions,
               Contact<Dim>& contact);
 
-/// What the mollifier of a contact adds to the gradient.
+/// The part of the gradient that the mollifier of a contact adds.
 template <int Dim>
 [[nodiscard]] StencilVector<Dim> mollifier_gradient(const DistanceEnergy& energy,
                                                     const Contact<Dim>& contact,

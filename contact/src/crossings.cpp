@@ -234,7 +234,7 @@ private:
     double least_;
     std::size_t most_;
     std::vector<SurfaceTrees<Dim>> trees_;
-    bool is_entered_ = false;  // an obstacle by what may be there, of the two that are looked at
+    bool is_entered_ = false;  // whether what may has entered an obstacle, of the two looked at
     std::vector<Crossing> found_;
 };
 

@@ -18,7 +18,7 @@ struct LanesKernels {
     FindSpectra find_spectra = nullptr;
     BoundMotions bound_motions = nullptr;
 
-    /// By the corners of the simplices of the first patch.
+    /// The kernel for first patches of simplices with K corners.
     template <int K>
     [[nodiscard]] FindNearLanes find_near() const {
         return K == 1 ? near_points : near_mixed;
@@ -32,7 +32,7 @@ enum class LanesIsa : std::uint8_t { Baseline, Avx2, Avx512 };
 template <int Dim>
 [[nodiscard]] const LanesKernels<Dim>& lanes_kernels(LanesIsa isa);
 
-/// Of the widest that is supported.
+/// The kernels of the widest instruction set that is supported.
 template <int Dim>
 [[nodiscard]] const LanesKernels<Dim>& lanes_kernels();
 

@@ -7,8 +7,8 @@
 
 #include <cstdint>
 
-// What patches are looked at as, side by side: boxes, how far they reach along a line, and pairs of
-// simplices. Included once for each instruction set, by near_lanes_kernel.h.
+// The shapes in which patches are looked at, side by side: boxes, extents along a line, and pairs
+// of simplices. Included once for each instruction set, by near_lanes_kernel.h.
 
 namespace pent::contact {
 namespace {
@@ -30,7 +30,7 @@ constexpr float kMinLength = 1e-15F;
 struct Chosen {
     const std::int32_t* lanes;
 
-    // Of kLanes numbers those in the chosen lanes.
+    // Picks the numbers in the chosen lanes out of kLanes.
     [[nodiscard, gnu::always_inline]] Floats of(const float* numbers) const {
 #if defined(__AVX512F__)
         const __m512i which = _mm512_loadu_si512(lanes);
@@ -126,7 +126,7 @@ template <int Dim, int Count>
 struct Simplex {
     Floats corners[Count][Dim];  // NOLINT(modernize-avoid-c-arrays)
 
-    // Those in chosen lanes of a patch, moved.
+    // Sets them to those in chosen lanes of a patch, moved by a shift.
     [[gnu::always_inline]] void set(const LanesView& patch,
                                     const Chosen& chosen,
                                     const float* shift) {

@@ -44,7 +44,7 @@ template <int Dim>
 SignedDistance<Dim> distance_to_rim(const Bowl<Dim>& bowl,
                                     const Vector<Dim>& level,
                                     double height) {
-    // What rounding has left along `up` would count where little else is left.
+    // Near the axis what rounding has left along `up` would count: it is taken out.
     const Vector<Dim> across = level - bowl.up.dot(level) * bowl.up;
     const double rho = across.norm();
     const bool is_on_axis = rho <= kOnAxis * (height + bowl.radius);
@@ -139,7 +139,7 @@ bool passes_through(const ObstacleShape<Dim>& obstacle,
     };
     const double length = (to - from).norm();
     if (!(length > 2 * depth)) {
-        return false;  // in and out again is farther
+        return false;  // too short to go in by `depth` and out again
     }
     const double at_end = above(to);
     double height = above(from);

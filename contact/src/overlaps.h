@@ -90,7 +90,7 @@ struct NearTest {
     }
 };
 
-/// What the pieces of work found, as one list of known distances.
+/// The pairs that all pieces of work found, as one list of known distances.
 [[nodiscard]] inline CandidateList joined(const std::vector<CandidateList>& pieces) {
     CandidateList all;
     std::size_t count = 0;

@@ -9,7 +9,7 @@
 
 namespace pent::contact {
 
-/// Where a pair of simplices is.
+/// The corners of a pair of simplices.
 template <int Dim, int K, int L>
 struct PairAt {
     Corners<Dim, K> first;

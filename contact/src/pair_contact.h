@@ -7,7 +7,7 @@
 
 namespace pent::contact {
 
-/// What pairs of two bodies (or of one) are judged by under the penalty model.
+/// The setting in which pairs of two bodies (or of one) are judged under the penalty model.
 template <int Dim>
 struct PairSetting {
     const PositionsView<Dim>& positions;

@@ -14,10 +14,11 @@ class PatchPartition {
 public:
     PatchPartition() = default;
 
-    /// By halving along the longest side, as a BoxTree does; no patches of no boxes. Parallel.
+    /// Divides by halving along the longest side, as a BoxTree does. Without boxes there are no
+    /// patches. Parallel.
     explicit PatchPartition(std::span<const Box> boxes);
 
-    /// Of patches.
+    /// The number of patches.
     [[nodiscard]] std::size_t size() const { return begin_.empty() ? 0 : begin_.size() - 1; }
 
     /// Which simplices a patch has.

@@ -6,7 +6,7 @@ namespace pent::contact {
 
 namespace {
 
-// Those of some simplices, ascending, each once.
+// The vertices of some simplices, ascending, each once.
 template <int Count>
 std::vector<std::uint32_t> vertices_of(const Simplices<Count>& simplices,
                                        std::span<const std::uint32_t> patch) {

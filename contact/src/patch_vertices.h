@@ -21,16 +21,16 @@ public:
     template <int Count>
     PatchVertices(const Simplices<Count>& simplices, const PatchPartition& partition);
 
-    /// Of patches.
+    /// The number of patches.
     [[nodiscard]] std::size_t size() const { return starts_.empty() ? 0 : starts_.size() - 1; }
 
-    /// Where those of a patch begin among those of all patches, and one more.
+    /// Where the vertices of each patch begin among those of all, and the number of all.
     [[nodiscard]] const std::vector<std::size_t>& starts() const { return starts_; }
 
-    /// Those of all patches, one after the other.
+    /// The vertices of all patches, one patch after the other.
     [[nodiscard]] const std::vector<std::uint32_t>& of_all() const { return vertices_; }
 
-    /// Those of a patch, ascending, each once.
+    /// The vertices of a patch, ascending, each once.
     [[nodiscard]] std::span<const std::uint32_t> operator[](std::size_t patch) const {
         return std::span(vertices_).subspan(starts_[patch], starts_[patch + 1] - starts_[patch]);
     }
@@ -40,13 +40,13 @@ public:
     /// Corners of a simplex.
     [[nodiscard]] int corner_count() const { return corner_count_; }
 
-    /// Of kLanes simplices of a patch, the first in place of those that it lacks: [corner][lane],
+    /// The corners of the simplices of a patch, padded to kLanes by the first one: [corner][lane],
     /// numbers of vertices of the scene.
     [[nodiscard]] const std::int32_t* corners(std::size_t patch) const {
         return corners_.data() + stride() * patch;
     }
 
-    /// The same: places among the vertices of the patch.
+    /// The same as places among the vertices of the patch.
     [[nodiscard]] const std::uint8_t* places(std::size_t patch) const {
         return places_.data() + stride() * patch;
     }

@@ -26,7 +26,7 @@ constexpr double kFlat = 0.05;
 // be fit.
 constexpr double kSlender = 1e-6;
 
-// What rounding may add to lengths, over the size of coordinates.
+// How much rounding may add to lengths, over the size of coordinates.
 constexpr double kRounding = 1e-12;
 
 // Patches that one thread fits at a time.
@@ -212,7 +212,7 @@ std::vector<PatchMotion<Dim>> Patches<Dim>::motions(const PatchPlaces<Dim>& earl
     return motions;
 }
 
-// Where a motion begins; all else of it is to come.
+// Sets where a motion begins; the rest of it is still to come.
 template <int Dim>
 void Patches<Dim>::begin(std::size_t patch,
                          const PatchPlaces<Dim>& earlier,

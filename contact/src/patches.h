@@ -87,7 +87,7 @@ public:
 
     [[nodiscard]] std::size_t size() const { return rest_.size(); }
 
-    /// Where they are: the affine maps that fit their vertices best. Parallel.
+    /// The place of each patch: the affine map that fits its vertices best. Parallel.
     [[nodiscard]] PatchPlaces<Dim> place(const PositionsView<Dim>& positions) const;
 
     /// How each has moved since an earlier moment. Parallel.
@@ -102,7 +102,7 @@ public:
     [[nodiscard]] std::int64_t bytes() const;
 
 private:
-    // What a patch is at rest.
+    // A patch at rest.
     struct Rest {
         bool is_flat = false;  // across axes.col(0) there is nothing to fit to
         Eigen::Matrix<double, Dim, Dim> axes = Eigen::Matrix<double, Dim, Dim>::Zero();

@@ -18,7 +18,7 @@ namespace pent::contact {
 template <int Dim>
 class PathCover {
 public:
-    /// Of no vertex: covers all.
+    /// Without vertices: covers all positions.
     PathCover() = default;
 
     /// @param vertices  Those of the scene that count.
@@ -53,7 +53,7 @@ private:
                                           const Vector<Dim>& mean,
                                           Eigen::Index k) const;
 
-    // By their places among the vertices; starts and ways less the mean of all.
+    // In the order of the vertices; starts and ways less the mean of all.
     Simplices<1> vertices_;
     Positions<Dim> start_;       // of the paths
     Positions<Dim> way_;         // from start to end

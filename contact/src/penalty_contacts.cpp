@@ -33,7 +33,7 @@ struct NearNow {
     std::vector<Candidate> mixed_second;
 };
 
-// Where everything is, and what is known of the candidates.
+// What penalties are found from: positions, candidates, normals.
 template <int Dim>
 struct Setting {
     const Colliders<Dim>& colliders;
@@ -283,7 +283,7 @@ std::vector<Contact<Dim>> find_penalty_contacts(const Colliders<Dim>& colliders,
     Setting<Dim> setting{colliders, candidates, positions, Positions<Dim>()};
     std::vector<NearNow> all;
     const std::vector<Displacement> gone = candidates.displacements(positions, positions);
-    for (std::size_t m = 0; m < gone.size(); ++m) {  // in one order, since a team gathers each
+    for (std::size_t m = 0; m < gone.size(); ++m) {  // one by one: a team gathers in this order
         all.push_back(near_now<Dim>(setting, candidates.meetings()[m].pairs, gone[m]));
     }
     find_normals<Dim>(all, setting);

@@ -20,7 +20,7 @@ constexpr double kListed = 2;
 constexpr double kMaxOfEdge = 0.6;
 constexpr double kMinListed = 1.2;
 
-// What rounding to float may take from a bound, relative.
+// Room for the rounding of bounds to floats, relative.
 constexpr double kRoundDown = 1 - 1e-6;
 constexpr double kRoundUp = 1 + 1e-6;
 
@@ -71,7 +71,8 @@ typename SelfProximity<Dim>::Places SelfProximity<Dim>::place(
     return places;
 }
 
-// Where paths begin is where the body was: where they end it may never be.
+// Motions are measured between the starts of paths, where the body has been; where paths end it may
+// never be.
 template <int Dim>
 void SelfProximity<Dim>::move(const Asked& asked) {
     fit_boxes<Dim>(surface_.vertices, asked.paths, 0.5 * asked.activation_distance, boxes_);

@@ -65,11 +65,11 @@ private:
     using Places = std::array<PatchPlaces<Dim>, Dim>;
     using Motions = std::array<PatchMotions<Dim>, Dim>;
 
-    // What is known of a patch and another: pairs [begin, end) of the row, and what all others are
-    // no nearer than, from the listed distance.
+    // What is known of a patch and another one: pairs [begin, end) of the row are all that were
+    // within the listed distance; the bound tells how near all others may have come since.
     struct Known {
         std::uint32_t second = 0;
-        std::uint32_t search = 0;  // the last in which they were near
+        std::uint32_t search = 0;  // number of the last search in which their boxes met
         std::uint32_t begin = 0;
         std::uint32_t end = 0;
         float stretch = 1;
@@ -79,14 +79,15 @@ private:
         void set_bound(const PatchBound& bound);
     };
 
-    // What is known of a patch and others, by these. Some pairs may be in no list any more.
+    // What is known of a patch and others, ascending by these. Some pairs may be in no list any
+    // more.
     struct Row {
         std::vector<Known> known;
         std::vector<Candidate> pairs;
-        std::vector<std::uint32_t> unknown;  // near now, ascending, and no list tells all
+        std::vector<std::uint32_t> unknown;  // patches that are near and have no list that holds
     };
 
-    // Where what is searched goes, and how near is near, m.
+    // The paths that are searched, and how near counts as near, m.
     struct Asked {
         const Paths<Dim>& paths;
         double activation_distance = 0;
@@ -111,8 +112,8 @@ private:
     std::array<Patches<Dim>, Dim> patches_;  // by corners, less one
     std::uint32_t search_ = 0;               // how many there have been
     Places places_;                          // where the paths of the last search began
-    Motions since_;                          // from there; none in the first
-    Motions ahead_;                          // along the paths; none where these are still
+    Motions since_;                          // since the search before; none in the first
+    Motions ahead_;                          // along the paths; not set where these are still
     std::vector<Row> points_;                // by patches of vertices
     std::vector<Row> mixed_;                 // by patches of edges
 };

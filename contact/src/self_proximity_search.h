@@ -41,7 +41,7 @@ public:
     static constexpr std::size_t kBatch = 16;
     using Bounds = std::array<PatchBound, kBatch>;
 
-    // What pairs are of.
+    // The simplices of pairs, and what is known of their patches.
     struct Sides {
         const Simplices<K>& first;
         const Simplices<L>& second;
@@ -177,7 +177,7 @@ private:
         add(rows_[a], listed);
     }
 
-    // Of a patch and others, at most kBatch.
+    // Bounds for a patch and others, at most kBatch: since the last search, and along the paths.
     [[nodiscard]] Bounds since(std::size_t a, std::span<const std::uint32_t> others) const {
         Bounds bounds;
         all_.since_[K - 1].bound(a, all_.since_[L - 1], others, bounds);
@@ -217,7 +217,7 @@ private:
         }
     }
 
-    // Those around the two simplices, all along their paths.
+    // Whether the boxes around the two simplices stay apart all along their paths.
     [[nodiscard]] bool do_boxes_stay_apart(const Candidate& pair, double near) const {
         return !is_still_
                && are_paths_apart<Dim, K, L>(gather<Dim, K>(first_, pair.first, paths_.from),

@@ -22,7 +22,7 @@ struct ReducedMatrix {
     }
 };
 
-/// Of a matrix that is the same for all points moved alike: these motions are taken out.
+/// Reduces a matrix of an energy that is invariant under translations: those are taken out.
 template <int Dim>
 [[nodiscard]] ReducedMatrix<Dim, Dim * Dim> without_translations(const StencilMatrix<Dim>& matrix);
 

@@ -12,13 +12,13 @@ namespace {
 
 using Doubles = Pack<double, kRegisterBytes / static_cast<int>(sizeof(double))>;
 
-// Of the largest number of a matrix: what counts as 0 off its diagonal.
+// Below this part of the largest number of a matrix, an entry off its diagonal counts as 0.
 constexpr double kNegligible = 1e-15;
 
-// Six or seven are enough; more only where numbers are not finite.
+// Six or seven sweeps are enough; more happen only where numbers are not finite.
 constexpr int kMaxSweeps = 40;
 
-// Below it the inverse of the largest number overflows.
+// The inverse of a smaller largest number would overflow.
 constexpr double kTiny = 1e-300;
 
 // As many matrices as a register has lanes, diagonalized by rotations in the planes of two axes,

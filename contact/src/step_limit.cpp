@@ -21,7 +21,7 @@ constexpr std::size_t kChunk = 512;
 // A fraction of a step, and the pair that allows no more: by its places in a list.
 using Bound = std::tuple<double, std::uint32_t, std::uint32_t>;
 
-// Where vertices start, and how they move.
+// A step: where vertices start, and how they move.
 template <int Dim>
 struct Step {
     const PositionsView<Dim>& from;
@@ -89,7 +89,7 @@ struct LeastBound {
 
     [[nodiscard]] double fraction() const { return std::get<0>(bound); }
 
-    // Of equals the list that came first counts.
+    // Takes a bound that is lower; of equal ones the list that came first keeps its place.
     void take(const Bound& other, std::uint32_t of) {
         if (std::get<0>(other) < fraction()) {
             *this = {other, of};
@@ -164,7 +164,8 @@ Crossing touching(const ContactScene<Dim>& scene, std::uint32_t obstacle, std::u
             0};
 }
 
-// What the surface of an obstacle allows, if that is less than the limit; vertices by their places.
+// The fraction that the surface of an obstacle allows, if that is less than the limit, and the
+// place of the vertex.
 template <int Dim>
 Bound bound_of(const Candidates<Dim>& candidates,
                std::uint32_t obstacle,
@@ -184,7 +185,7 @@ Bound bound_of(const Candidates<Dim>& candidates,
     });
 }
 
-// That of all of a team.
+// The least bound of all of a team.
 LeastBound least_of_all(const LeastBound& own, const SharedWork& shared) {
     LeastBound least = own;
     for (const LeastBound& bound : shared.all(std::vector<LeastBound>{own})) {

@@ -49,7 +49,7 @@ public:
     /// Sets where simplices are at the ends of paths. Parallel.
     void set_lanes(const Paths<Dim>& paths);
 
-    /// By corners of the simplices.
+    /// The patches of the simplices with that many corners.
     template <int Count>
     [[nodiscard]] const PatchesOnPaths<Dim>& of() const {
         return kinds_[Count - 1];

@@ -28,7 +28,8 @@ public:
         bool operator==(const Shape&) const = default;
     };
 
-    /// Of time 0. Throws an Error if an activation selects nothing, or its fibers cannot be found.
+    /// Sets shapes to those of time 0. Throws an Error if an activation selects nothing, or its
+    /// fibers cannot be found.
     ///
     /// @param bodies  Must outlive this.
     ActiveStrain(const Workers& workers, const Scene& scene, const Bodies<Dim>& bodies);
@@ -50,7 +51,7 @@ private:
         Activation activation;
         std::size_t body = 0;
     };
-    // What a muscle does to one element.
+    // One element of a muscle.
     struct Fiber {
         std::uint32_t element = 0;
         std::uint32_t muscle = 0;
@@ -64,12 +65,12 @@ private:
 
     const Sharing* sharing_;
     std::vector<Muscle> muscles_;
-    std::vector<Fiber> fibers_;             // by element, those of one in the order of the scene
-    std::vector<std::size_t> first_fiber_;  // of each shape, and their number
+    std::vector<Fiber> fibers_;             // by element; of one in the order of the scene
+    std::vector<std::size_t> first_fiber_;  // of each shape, and the number of all
     std::vector<std::int32_t> shape_of_;    // one an element; below 0: none
     std::vector<std::uint32_t> parent_of_;  // of cells, where elements are quadratic
     std::vector<Shape> shapes_;
-    std::optional<double> time_;  // that shapes are of, s
+    std::optional<double> time_;  // at which shapes are as they are, s
 };
 
 /// The signal of an activation, for an element that is so many periods late: 0 to 1, times the

@@ -34,7 +34,7 @@ public:
     /// How far the nearest point is, m; infinite where there is no cell.
     [[nodiscard]] double distance(const Vector<Dim>& point) const;
 
-    /// Of the cells that are as near as that, but for rounding, the first one; none where all are
+    /// The first of the cells that are as near as that, but for rounding; none where all are
     /// farther.
     [[nodiscard]] std::optional<Eigen::Index> first_at(const Vector<Dim>& point,
                                                        double distance) const;

@@ -50,7 +50,7 @@ struct CellList {
     std::vector<std::size_t> bodies;                              ///< One a cell.
 };
 
-/// Those that are wanted, on all ranks alike.
+/// The cells that are wanted, on all ranks alike.
 ///
 /// @param is_wanted  Of the corners of a cell.
 template <int Dim>

@@ -43,7 +43,7 @@ template <int Dim>
     const QuadraticSimplices<Dim>& simplices,
     Eigen::Index simplex);
 
-/// What the kernels want of a quadratic simplex at rest, as in ElementRun::rest but for the volume.
+/// A quadratic simplex at rest as kernels take it: ElementRun::rest but for the volume.
 template <int Dim>
 struct QuadraticRest {
     std::array<double, kQuadraticRestRows<Dim> - 1> rows{};

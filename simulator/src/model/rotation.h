@@ -21,8 +21,7 @@ template <int Dim>
 template <int Dim>
 [[nodiscard]] Matrix<Dim> rotation_of(const std::vector<Turn>& turns);
 
-/// Where a motion takes the points it moves at one moment: X goes to
-/// `rotation` (X - about) + about + `shift`, with velocity `rate` (X - about) + `velocity`.
+/// The rigid motion that a motion amounts to at one moment: X goes to
 template <int Dim>
 struct Pose {
     Matrix<Dim> rotation;

@@ -13,8 +13,8 @@
 
 namespace pent::simulator {
 
-// What select_vertices() and select_cells() are made of: for parts of meshes, of which one may have
-// nothing where another has something.
+// The parts of select_vertices() and select_cells(): for parts of meshes, of which one may have
+// nothing selected where another has something.
 
 /// Whether any of these selects by a region's label.
 [[nodiscard]] bool selects_by_region(const std::vector<Selection>& select);

@@ -13,8 +13,8 @@ namespace pent::simulator {
 /// Whether any two of so many bodies, or one and itself, may touch.
 [[nodiscard]] bool may_any_touch(const Scene& scene, std::size_t bodies);
 
-/// What contact sees of a scene: surfaces, which vertices are held, who ignores whom, obstacles as
-/// the scene has them.
+/// A scene as contact sees it: surfaces, which vertices are held, which bodies ignore each other,
+/// obstacles as the scene has them.
 ///
 /// @param do_bodies_meet  Else they meet only obstacles, and have no surfaces in it.
 template <int Dim>

@@ -80,7 +80,7 @@ public:
                      BlockMatrix<Dim, double>& matrix,
                      BlockVector<Dim>& right) const;
 
-    /// Of the elements now: never rewritten, but replaced by set_dofs().
+    /// The pattern of the matrix of the elements: never rewritten, but replaced by set_dofs().
     [[nodiscard]] const std::shared_ptr<const BlockPattern>& pattern() const { return pattern_; }
     /// J: of elements that a step may change.
     [[nodiscard]] double energy() const { return energy_.energy; }

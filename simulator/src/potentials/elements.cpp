@@ -298,7 +298,7 @@ void Elements<Dim>::set_lane(const Element& element,
                 continue;
             }
             const std::uint32_t column = dofs.index_of(element.corners[b]);
-            // Of two dofs, the lower of which has a row.
+            // Only pairs of dofs of which the lower one has a row here have a block.
             if (std::max(row, column) < dofs.count() && std::min(row, column) < dofs.row_count()) {
                 const auto block = static_cast<std::int32_t>(
                     pattern.find(std::min(row, column), std::max(row, column)));

@@ -21,7 +21,7 @@ namespace pent::simulator {
 template <int Dim>
 class ActiveStrain;
 
-/// Where the Hessian times `scale` goes, without the part of held vertices.
+/// Makes the Hessian times `scale` go into a matrix, without the part of held vertices.
 template <int Dim, typename Scalar>
 [[nodiscard]] HessianTarget<Scalar> target_in(BlockMatrix<Dim, Scalar>& matrix,
                                               double scale,
@@ -29,7 +29,7 @@ template <int Dim, typename Scalar>
     return {.values = matrix.values(), .scale = scale, .filter = filter};
 }
 
-/// What elastic elements add up to.
+/// The sums over elastic elements.
 struct ElasticEnergy : RunEnergy {
     std::vector<double> of_ranges;  ///< J: of every range of cells.
 

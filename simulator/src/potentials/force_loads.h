@@ -36,7 +36,7 @@ public:
     }
 
 private:
-    // Of a load with a force.
+    // The forces of one load.
     struct VertexForces {
         std::size_t body = 0;
         std::vector<std::uint32_t> vertices;

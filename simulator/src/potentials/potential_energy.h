@@ -34,7 +34,7 @@ public:
     /// The gradient of one of the terms at the positions last evaluated, Dim x vertices, N.
     [[nodiscard]] Positions<Dim> gradient_of(Potential<Dim>& term) const;
 
-    /// Those last evaluated, Dim x vertices, m.
+    /// The positions last evaluated, Dim x vertices, m.
     [[nodiscard]] const Positions<Dim>& positions() const { return x_; }
 
     [[nodiscard]] double value() const { return value_; }  ///< J.

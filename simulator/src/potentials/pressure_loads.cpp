@@ -207,7 +207,7 @@ typename PressureLoads<Dim>::PressedSurface PressureLoads<Dim>::make_pressed(
 template <int Dim>
 void PressureLoads<Dim>::hold_walls(PressedSurface& pressed, const Positions<Dim>& x) {
     if (pressed.rim.empty()) {
-        pressed.apex = x.col(pressed.facets(0, 0));  // any point, best a near one
+        pressed.apex = x.col(pressed.facets(0, 0));  // any point will do: a near one rounds least
         return;
     }
     pressed.start = x(Eigen::all, pressed.rim);
@@ -278,7 +278,7 @@ double PressureLoads<Dim>::evaluate(const Positions<Dim>& x, Positions<Dim>& gra
                     gradient.col(facet[a]) += pressure / Dim * normal;
                 }
             }
-            if (facet[0] != kNoVertex) {  // the walls meet the apex
+            if (facet[0] != kNoVertex) {  // walls span no volume with the apex, which is theirs
                 const double cone = pressure / Dim * normal.dot(x.col(facet[0]) - pressed.apex);
                 energy += cone;
                 size += std::abs(cone);
@@ -331,7 +331,7 @@ void PressureLoads<Dim>::add_hessian(const Positions<Dim>& x,
         });
         next += pressed.facets.cols() * kSide * kSide;
         for (Eigen::Index i = 0; i < pressed.facets.cols(); ++i) {
-            // Of a wall all but the apex, which comes first.
+            // A wall has entries for all corners but the apex, which comes first.
             const int skipped = pressed.facets(0, i) == kNoVertex ? 1 : 0;
             system.add_stencil({.vertices = &pressed.facets(skipped, i),
                                 .numbers = first + i * kSide * kSide + skipped * Dim * (kSide + 1),

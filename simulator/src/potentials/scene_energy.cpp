@@ -42,7 +42,8 @@ SceneEnergy<Dim>::SceneEnergy(const Workers& workers,
                               const Bodies<Dim>& bodies,
                               const HeldVertices<Dim>& held,
                               const Scene& scene) {
-    // What a host may change later is there from the beginning, since sums have one order.
+    // Terms that a host may change later are there from the beginning, even if empty: the order of
+    // a sum decides its rounding.
     gravity = &sum.add(
         std::make_unique<Gravity<Dim>>(workers, bodies.masses, Vector<Dim>(scene.gravity)));
     elasticity = &sum.add(std::make_unique<Elasticity<Dim>>(workers, kernels, bodies, held, scene));

@@ -40,7 +40,7 @@ struct Spring {
         }
     }
 
-    /// Of vectors of all vertices.
+    /// The weighted sum of vectors that are given for all vertices.
     [[nodiscard]] Vector<Dim> weighted_sum(const Positions<Dim>& x) const {
         Vector<Dim> sum = weights[0] * x.col(vertices[0]);
         for (std::int32_t i = 1; i < count; ++i) {
@@ -59,7 +59,7 @@ struct Spring {
         double damping = 0;
     };
 
-    /// Its energy, and adds the gradient.
+    /// Returns the energy, and adds the gradient.
     ///
     /// @param rate  1/s; 0 outside of steps, where nothing is damped.
     Energy evaluate(const SpringLaw& law,

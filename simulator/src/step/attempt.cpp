@@ -44,7 +44,7 @@ constexpr int kMaxBoundedIterations = 150;
 // Iterations of a damped step: twice as many bring back no more bodies, and cost more in all.
 constexpr int kDampedIterations = 4;
 
-// Where what is held now is to be at a time.
+// The places of held vertices at a time.
 template <int Dim>
 PrescribedPlaces<Dim> prescribed_places(const HeldVertices<Dim>& held,
                                         double time,

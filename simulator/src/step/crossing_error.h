@@ -9,7 +9,7 @@
 
 namespace pent::simulator {
 
-/// What to throw about crossings, of which there is at least one.
+/// The error to throw for crossings, of which there is at least one.
 template <int Dim>
 [[nodiscard]] CrossingError<Dim> crossing_error(const Bodies<Dim>& bodies,
                                                 const ContactPotential<Dim>& contacts,

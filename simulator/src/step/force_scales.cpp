@@ -132,7 +132,7 @@ Eigen::VectorXd scales_by(const Bodies<Dim>& bodies,
 template <int Dim>
 ForceScales<Dim>::ForceScales(const Bodies<Dim>& bodies) {
     const Eigen::VectorXd volumes = volumes_by_piece(bodies);
-    // Of equal strains, and of equal accelerations.
+    // Forces that equal strains cause, and those that equal accelerations cause.
     by_stiffness_ = scales_by(bodies, volumes, (Dim - 1.0) / Dim,
                               [](const Material& own) { return own.lame.mu; });
     by_density_ = scales_by(bodies, volumes, 1, [](const Material& own) { return own.density; });

@@ -10,7 +10,7 @@
 
 namespace pent::simulator {
 
-// What a host hands over is checked once, here. Each throws an Error.
+// What a host hands over is checked here, once. Each function throws an Error.
 
 template <int Dim>
 void check_body(int body, const Bodies<Dim>& bodies);

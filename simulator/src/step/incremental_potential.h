@@ -128,10 +128,10 @@ private:
     MassDistance<Dim> mass_drag_;
     RayleighDamping<Dim> stiffness_drag_;
     std::unique_ptr<LinearSolver<Dim>> solver_;
-    // Where float has turned out too coarse there are both.
+    // The second one is made where float turns out too coarse.
     std::unique_ptr<NewtonSystem<Dim>> float_system_;
     std::unique_ptr<NewtonSystem<Dim>> double_system_;
-    bool was_double_needed_ = false;  // by the last matrix
+    bool was_double_needed_ = false;  // whether the last matrix had to be in double
     std::shared_ptr<const StepProblem<Dim>> problem_;
     bool may_be_rough_ = false;
     Observer observer_;

@@ -13,10 +13,11 @@ namespace {
 constexpr double kHeld = 113;
 // Entries within this of 1 are left as they are.
 constexpr double kNear = 66;
-// What is so far below something that is added to it is not seen there in floats.
+// What is so many powers of two below something that it is added to is lost in floats.
 constexpr double kUnseen = 30;
 
-// To the base 2. std::log2() would bring a table of two kilobytes along, which pages load.
+// Logarithm to the base 2. std::log2() would bring a table of two kilobytes along, which pages
+// load.
 double exponent_of(double number) {
     return std::log(number) / std::numbers::ln2;
 }
@@ -66,7 +67,7 @@ bool MatrixRange::is_in_float(double weight, double scale) const {
     const double unit = this->unit(weight, scale);
     const double factor = exponent_of(scale / unit);
     const Span all = entries(weight / unit, scale / unit);
-    const Span rotations = times_lengths(all, 2);  // of pieces of a body
+    const Span rotations = times_lengths(all, 2);  // entries for the turns of pieces of a body
     const bool is_negligible = stiffness(scale).high + kUnseen < inertia(weight).low;
     const auto is_held = [&](const Span& span, double times) {
         return (is_negligible || span.low + times > -kHeld) && span.high + times < kHeld;

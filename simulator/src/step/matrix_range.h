@@ -8,10 +8,10 @@
 
 namespace pent::simulator {
 
-/// How small and how large numbers get where the matrix inertia M + scale K of a scene is made, but
-/// for contact and springs. With bodies of nanometers, or of millions of kilometers, they are
-/// beyond what floats hold, by which parts of the matrix and of preconditioners are kept.
-/// Estimates, to a few powers of two, by the masses and the materials that there are.
+/// How small and how large numbers get in the matrix inertia M + scale K of a scene, contact and
+/// springs aside. With bodies of nanometers, or of millions of kilometers, they are beyond the
+/// range of floats, in which parts of the matrix and of preconditioners are kept. Estimates, to a
+/// few powers of two, by the masses and the materials that there are.
 class MatrixRange {
 public:
     /// @param dimension  Of the bodies.
@@ -19,8 +19,8 @@ public:
     /// @param ranges     Of all cells.
     MatrixRange(int dimension, const Eigen::VectorXd& masses, const std::vector<CellRange>& ranges);
 
-    /// What entries of the matrix are to be in units of, a power of two: 1 unless they are far from
-    /// that.
+    /// The unit, a power of two, by which entries of the matrix are to be divided: 1 unless they
+    /// are far from that.
     ///
     /// @param weight  Of the masses: inertia, 0 in statics.
     [[nodiscard]] double unit(double weight, double scale) const;
@@ -38,7 +38,7 @@ private:
     [[nodiscard]] Span stiffness(double scale) const;
     [[nodiscard]] Span inertia(double weight) const;
     [[nodiscard]] Span entries(double weight, double scale) const;
-    // Of products of powers, none of them negative.
+    // The range of numbers times a power of lengths, which is not negative.
     [[nodiscard]] Span times_lengths(const Span& span, double power) const {
         return {span.low + power * length_.low, span.high + power * length_.high};
     }

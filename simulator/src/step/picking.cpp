@@ -64,7 +64,8 @@ bool meets_box(const Corners<Dim>& corners, const Ray<Dim>& ray, double most) {
 // Cells are larger by this part of their size, so that no ray goes between two of them.
 constexpr double kRounding = 1e-12;
 
-// Where a ray comes into a cell, by barycentric coordinates: linear functions along it.
+// Whether a ray meets a cell; where it enters it, by barycentric coordinates, which are linear
+// along it.
 template <int Dim>
 bool enters(const Corners<Dim>& corners, const Ray<Dim>& ray, double& t, Weights<Dim>& weights) {
     const Matrix<Dim> edges = corners.template rightCols<Dim>().colwise() - corners.col(0);
@@ -88,13 +89,13 @@ bool enters(const Corners<Dim>& corners, const Ray<Dim>& ray, double& t, Weights
     return !span.is_empty();
 }
 
-// Of unit length, whatever length it had but 0.
+// The vector at unit length, however large or small it is.
 template <int Dim>
 Vector<Dim> unit(const Vector<Dim>& vector) {
     return (vector / vector.cwiseAbs().maxCoeff()).normalized();
 }
 
-// With a direction of unit length. Throws an Error if there is none.
+// The ray with a direction of unit length. Throws an Error if it has no direction.
 template <int Dim>
 Ray<Dim> checked(const Ray<Dim>& ray) {
     if (!ray.origin.allFinite() || !ray.direction.allFinite() || ray.direction.isZero(0)) {

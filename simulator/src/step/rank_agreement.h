@@ -27,8 +27,9 @@ template <int Dim>
                                 Bodies<Dim> bodies,
                                 const std::shared_ptr<const Ranks>& ranks);
 
-/// What all ranks compute alike must have come out alike: from here on they would go different
-/// ways, and wait for one another forever. Throws an Error on all of them where it has not.
+/// Positions that all ranks compute alike must have come out alike: else ranks would go different
+/// ways from here on, and wait for one another forever. Throws an Error on all of them where they
+/// differ.
 template <int Dim>
 void refuse_disagreement(const Sharing& sharing,
                          const Positions<Dim>& positions,

@@ -16,7 +16,7 @@ struct State {
     Positions<Dim> velocities;  ///< m/s.
 };
 
-/// Where vertices are to be at the end of a step, whatever acts on them.
+/// Where Dirichlet vertices are to be at the end of a step, whatever acts on them.
 template <int Dim>
 struct PrescribedPlaces {
     std::vector<std::uint32_t> vertices;             ///< Each once.
@@ -66,7 +66,7 @@ template <int Dim>
 template <int Dim>
 [[nodiscard]] StepProblem<Dim> static_problem(const State<Dim>& now, double h);
 
-/// What an integrator makes of a step of h seconds from now. `before` is the state a step of h
+/// The problem of a step of h seconds from now, by an integrator. `before` is the state a step of h
 /// earlier, null where there is none: at first, and around steps cut in two.
 template <int Dim>
 [[nodiscard]] StepProblem<Dim> step_problem(Integrator integrator,

@@ -4,7 +4,7 @@
 
 namespace pent::contact {
 
-/// What make_surface() makes of a body whose boundary is known.
+/// The same as make_surface(), of a body whose boundary is known.
 ///
 /// @param boundary      As match_facets() has it, indices from 0.
 /// @param first_vertex  What to add to them.

@@ -82,14 +82,15 @@ struct Contact {
     [[nodiscard]] Vector<Dim> force(int i) const { return -weights[i] * (slope * direction); }
 };
 
-/// What a mollifier adds to the gradient of a contact, N.
+/// The part of the gradient that a mollifier adds to that of a contact, N.
 template <int Dim>
 struct MollifierGradient {
     std::uint32_t contact = 0;  ///< Its place in the list.
     StencilVector<Dim> vector;
 };
 
-/// What touches, and what it took to find it. All zero where nothing was looked for.
+/// Counts and extremes of contacts, and what it took to find them. All zero where nothing was
+/// looked for.
 struct ContactReport {
     std::int64_t point_facet = 0;     ///< Contacts of this kind between bodies.
     std::int64_t mixed = 0;           ///< Contacts of this kind between bodies.

@@ -34,7 +34,7 @@ struct ContactBody {
     std::string name;           ///< For messages.
     Surface<Dim> surface;       ///< With the indices of the scene's vertices.
     bool is_kinematic = false;  ///< Moved from outside: two such bodies do not meet.
-    /// What is inside the surface: Dim + 1 corners of each cell, positively oriented at rest, with
+    /// The cells inside the surface: Dim + 1 corners of each, positively oriented at rest, with
     /// indices as those of the surface. They must outlive the scene. Of a convex body they spare
     /// searches for pairs within it; empty where they are not at hand.
     std::span<const std::uint32_t> cells = {};

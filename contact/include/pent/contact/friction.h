@@ -17,11 +17,11 @@ struct Friction {
     std::vector<double> of_bodies = {};
     std::vector<double> of_obstacles = {};  ///< The same for obstacles.
 
-    /// Of two things that touch: the geometric mean of theirs.
+    /// The coefficient between two things that touch: the geometric mean of theirs.
     [[nodiscard]] double between(const Collider& first, const Collider& second) const;
 };
 
-/// What friction does to the slip in one step.
+/// Which stiffness stands for friction at a slip.
 enum class FrictionLaw : std::uint8_t {
     Energy,  ///< Gradient and Hessian of the energy at the slip: for Newton's method.
     /// The secant stiffness, which gives this force at this slip: for one linear solve, which holds

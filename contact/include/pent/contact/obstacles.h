@@ -21,8 +21,8 @@ using pent::ShapeField;
 /// Signed distance of a point to the surface of an obstacle, negative in the solid, and its
 /// derivatives. It is exact, so that its gradient has length 1.
 ///
-/// Its Hessian is `along_tangent` on the tangent, and `sideways` on what is normal to tangent and
-/// gradient within the given axes.
+/// Its Hessian has the eigenvalue `along_tangent` on the tangent, and `sideways` on what is normal
+/// to tangent and gradient within the given axes.
 template <int Dim>
 struct SignedDistance {
     double value = 0;                           ///< m.
