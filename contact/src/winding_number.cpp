@@ -1,6 +1,6 @@
 #include "winding_number.h"
 
-#include "normals.h"
+#include "orientation.h"
 
 #include <pent/dimensions.h>
 
@@ -34,21 +34,24 @@ public:
         int shadow = 0;  // sign of the projected facet, if the point is within it
         for (int i = 0; i < Dim; ++i) {
             const int sign = side_of_ridge(facet, i, positions);
-            if (i > 0 && sign != shadow) {
+            if (sign == 0 || (i > 0 && sign != shadow)) {
                 return 0;
             }
             shadow = sign;
         }
-        Corners<Dim, Dim> corners;
+        Eigen::Matrix<double, Dim, Dim + 1> points;
         for (int i = 0; i < Dim; ++i) {
-            corners.col(i) = positions.col(facet[i]);
+            points.col(i) = positions.col(facet[i]);
         }
-        const Vector<Dim> normal = facet_normal<Dim>(corners);
-        const double height = normal.dot(start_ - corners.col(0));
-        const bool is_outward = (normal[axis_] > 0) == is_forward_;
+        points.col(Dim) = start_;
+        // The signs of the outward normal along the axis, and of its product with the way from the
+        // facet to the point.
+        const bool is_along_axis = (shadow > 0) == (axis_ % 2 == 0);
+        const int height = (Dim % 2 == 0 ? -1 : 1) * orientation<Dim>(points);
+        const bool is_outward = is_along_axis == is_forward_;
         // Leaving, the point has the facet in front of it if it is on its inner side.
         const bool is_ahead = is_outward ? height < 0 : height >= 0;
-        return normal[axis_] == 0 || !is_ahead ? 0 : (is_outward ? 1 : -1);
+        return !is_ahead ? 0 : is_outward ? 1 : -1;
     }
 
 private:
@@ -64,43 +67,28 @@ private:
         return shadow;
     }
 
-    // Orientation of the projected facet with corner i replaced by the start of the ray. Computed
-    // from the ridge's corners in ascending order, so that both facets at a ridge agree to the bit;
-    // where it is zero, from a start that is shifted by (t, t^2, ..) for a t next to 0.
+    // Orientation of the projected facet with corner i replaced by the start of the ray, exact;
+    // where it is zero, with one that is shifted by (t, t^2, ..) for a t next to 0. Zero where the
+    // ridge is seen edge-on: then the projected facet has no inside.
     [[nodiscard]] int side_of_ridge(const std::array<std::uint32_t, Dim>& facet,
                                     int i,
                                     const PositionsView<Dim>& positions) const {
-        std::array<std::uint32_t, Dim - 1> ridge{};
+        Eigen::Matrix<double, Dim - 1, Dim> points;
         for (int j = 0, at = 0; j < Dim; ++j) {
             if (j != i) {
-                ridge[at++] = facet[j];
+                points.col(at++) = project(positions.col(facet[j]));
             }
         }
-        bool is_even = (Dim - 1 - i) % 2 == 0;
-        for (int a = 1; a < Dim - 1; ++a) {
-            for (int b = a; b > 0 && ridge[b] < ridge[b - 1]; --b) {
-                std::swap(ridge[b], ridge[b - 1]);
-                is_even = !is_even;
+        points.col(Dim - 1) = project(start_);
+        int side = orientation<Dim - 1>(points);
+        for (int axis = 0; side == 0 && axis < Dim - 1; ++axis) {
+            Eigen::Matrix<double, Dim - 2, Dim - 1> ridge;
+            for (int row = 0; row < Dim - 2; ++row) {
+                ridge.row(row) = points.row(row < axis ? row : row + 1).template head<Dim - 1>();
             }
+            side = ((Dim - 2 + axis) % 2 == 0 ? 1 : -1) * orientation<Dim - 2>(ridge);
         }
-        const Shadow origin = project(positions.col(ridge[0]));
-        Eigen::Matrix<double, Dim - 1, Dim - 2> edges;
-        for (int j = 1; j < Dim - 1; ++j) {
-            edges.col(j - 1) = project(positions.col(ridge[j])) - origin;
-        }
-        const Shadow normal = normal_to(edges);
-        const Shadow start = project(start_);
-        // A point may lie exactly in line with corners, as with two copies of a mesh, one behind
-        // the other. There more than two ridges meet and all have to agree, which they do where the
-        // side is exactly 0.
-        const bool is_at_corner = std::any_of(
-            ridge.begin(), ridge.end(),
-            [&](std::uint32_t corner) { return project(positions.col(corner)) == start; });
-        double side = is_at_corner ? 0 : normal.dot(start - origin);
-        for (int j = 0; side == 0 && j < Dim - 1; ++j) {
-            side = normal[j];
-        }
-        return (side > 0) == is_even ? 1 : -1;
+        return ((Dim - 1 - i) % 2 == 0 ? 1 : -1) * side;
     }
 
     Vector<Dim> start_;

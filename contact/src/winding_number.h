@@ -9,8 +9,9 @@ namespace pent::contact {
 /// itself, and less where it is inside out. A point on the surface counts with either side.
 ///
 /// Counts, with sign, the facets that a ray along an axis crosses. Which facet a ray crosses at a
-/// common face is decided by one exact rule for all facets of the face (a symbolic shift of
-/// the point [edelsbrunner1990]), so that none is counted twice or missed, on lattices either.
+/// common face is decided by one rule for all facets of the face (a symbolic shift of the point
+/// [edelsbrunner1990]) and by exact signs, so that none is counted twice or missed, neither on
+/// lattices nor where corners are in line but for rounding.
 ///
 /// @param facets  Tree over boxes that hold the surface's facets, in their order.
 template <int Dim>

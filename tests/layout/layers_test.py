@@ -64,8 +64,8 @@ CONTACT = [
               " motion_lanes_kernel near_lanes near_lanes_kernel near_lanes_shapes patch_bound"
               " spectra_lanes spectra_lanes_kernel"),
     ("simplices", "apart ccd closest_point_search convex_reference distance_energy distance_hessian"
-                  " filter gather normals obstacles pair_contact paths simplex_crossing"
-                  " spanned_volume spectra stencil surface friction valley"),
+                  " filter gather normals obstacles orientation pair_contact paths"
+                  " simplex_crossing spanned_volume spectra stencil surface friction valley"),
     ("trees", "box_tree boxes_around chunks halving patch_lanes patch_partition patch_vertices"
               " patches refit_tree surface_patches surface_trees winding_number"),
     ("search", "candidate colliders convex_body near_on_paths near_pairs overlaps pair_at path_cover"
