@@ -41,6 +41,29 @@ TYPED_TEST(ContactPotentialTest, ABarrierBetweenBodiesPushesBothAlike) {
     expect_invariance_under_rigid_motion<kDim>(contact, x);
 }
 
+// A barrier doubles its stiffness where a gap is small, up to 1e8 times that of the scene.
+TYPED_TEST(ContactPotentialTest, ABarrierIsStiffenedUpToItsLimit) {
+    constexpr int kDim = TypeParam::value;
+    const Setting<kDim> setting(barrier_scene<kDim>(), 1);
+    ContactPotential<kDim> contact(setting.workers, setting.scene, setting.bodies, setting.held);
+    const auto above_floor = [&](double gap) {
+        Positions<kDim> x = setting.bodies.rest();
+        x.row(1).array() += gap - 0.02 - x.row(1).minCoeff();
+        return x;
+    };
+    const double most = 1e8 * contact.stiffness();
+    contact.set_stiffness(0.75 * most);
+    const Positions<kDim> start = above_floor(1e-4);
+    ASSERT_GT(value_of<kDim>(contact, start), 0);
+    static_cast<void>(contact.begin_step({start, start, start, start}));
+    ASSERT_GT(value_of<kDim>(contact, above_floor(1e-5)), 0);
+    EXPECT_TRUE(contact.adapt());
+    EXPECT_EQ(contact.stiffness(), most);
+    ASSERT_GT(value_of<kDim>(contact, above_floor(1e-6)), 0);
+    EXPECT_FALSE(contact.adapt());
+    EXPECT_EQ(contact.stiffness(), most);
+}
+
 // Two cubes, the second on a corner over the middle of the first, at a fraction of the distance of
 // contact.
 template <int Dim>

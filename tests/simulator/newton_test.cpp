@@ -337,6 +337,18 @@ TEST(NewtonStep, SolvesAQuadraticAtOnce) {
     EXPECT_EQ(f.evaluations, 1);
 }
 
+// The step of the last iteration that it may take counts as any other.
+TEST(Newton, SolvesAQuadraticInTheOneIterationThatItMayTake) {
+    const Eigen::Vector3d b(1, -2, 3);
+    PlainFunction f(quadratic(definite(), b));
+    Positions<3> x = point(7, 8, 9);
+    const NewtonReport report = newton<3>(f, {.max_iterations = 1}, x);
+    EXPECT_TRUE(report.has_converged) << report.failure_reason;
+    EXPECT_EQ(report.iterations, 1);
+    EXPECT_LE(report.residual, 1e-4);
+    EXPECT_LT((x - definite().ldlt().solve(b)).norm(), 1e-13);
+}
+
 TEST(NewtonStep, IsTheFirstIterationOfNewtonsMethod) {
     PlainFunction f(rosenbrock());
     Positions<3> step = point(1.1, 1.2, 1.4);
@@ -360,6 +372,42 @@ TEST(Newton, StretchesStepsOfAHessianThatIsTooStiff) {
     };
     EXPECT_GT(iterations(false), 40);
     EXPECT_LT(iterations(true), 10);
+}
+
+// What adapts when a point is accepted looks at where it was evaluated last: never at a stretch
+// that was tried and given up.
+TEST(Newton, AcceptsThePointThatItEvaluatedLast) {
+    struct Watchful : PlainFunction {
+        using PlainFunction::PlainFunction;
+        Positions<3> last;
+        int accepted = 0;
+        Evaluation<3> evaluate(const Positions<3>& x) override {
+            last = x;
+            return PlainFunction::evaluate(x);
+        }
+        bool accept(const Positions<3>& x) override {
+            ++accepted;
+            EXPECT_EQ(last, x);
+            return false;
+        }
+    };
+    // Half as stiff as its Hessian, and a wall from 1.2 on: a full step ends at 1, where the slope
+    // is still half of that at the start, and a stretched one in the wall.
+    Watchful f({.value = [](const auto& x) -> double {
+                    const double wall = std::max(0.0, x[0] - 1.2);
+                    return 0.25 * x[0] * x[0] - x[0] + 100 * wall * wall;
+                },
+                .gradient = [](const auto& x) -> Eigen::VectorXd {
+                    return (0.5 * x[0] - 1 + 200 * std::max(0.0, x[0] - 1.2)) * x.Unit(3, 0);
+                },
+                .hessian = [](const auto& x) -> Eigen::MatrixXd {
+                    return Eigen::MatrixXd::Identity(x.size(), x.size());
+                }});
+    Positions<3> x = point(0, 0, 0);
+    static_cast<void>(newton<3>(f, {.max_iterations = 1, .extends_steps = true}, x));
+    EXPECT_EQ(x, point(1, 0, 0));
+    EXPECT_EQ(f.accepted, 1);
+    EXPECT_EQ(f.evaluations, 4);  // the start, the full step, the stretch, and the step once more
 }
 
 // A function that stiffens when it is told of a point, as barriers do.

@@ -79,7 +79,7 @@ bool ContactPotential<Dim>::adapt() {
                           && stiffness_ < kMaxStiffness * settings_.stiffness;
     last_gap_ = gap();
     if (is_tight) {
-        stiffness_ *= 2;
+        stiffness_ = std::min(2 * stiffness_, kMaxStiffness * settings_.stiffness);
     }
     return is_tight;
 }

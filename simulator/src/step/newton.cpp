@@ -12,42 +12,43 @@ namespace pent::simulator {
 
 namespace {
 
-// The linear solves of Newton's method need not be more exact than this: each iteration then gains
-// two digits, which is what its quadratic model is good for.
+// Forcing term of the inexact Newton method, the relative residual of its linear solves: each
+// iteration then gains two digits, which is what its quadratic model is good for.
 constexpr double kForcing = 1e-2;
 
-// Least part of the decrease that the slope promises for a step to be taken [nocedal2006, 3.1].
+// Armijo's rule: a step is taken if the value falls by at least this part of what the slope at its
+// start promises [nocedal2006, 3.1].
 constexpr double kArmijo = 1e-4;
 constexpr double kRounding = 1e-13;  // of the value
 constexpr int kMaxBacktracks = 40;
 
-// Newton's method is at a kink when the gradient left over is below this part of that at the start,
-// and either a step that had to be cut gains less than this part of what all of them have, or the
-// gradient has not become less in so many iterations.
+// Newton's method stops at a kink when the gradient left is below this part of that at the start,
+// and either a step that had to be cut gains less than this part of what all steps have gained, or
+// the gradient has not decreased in so many iterations.
 constexpr double kKinkGradient = 0.1;
 constexpr double kKinkGain = 1e-4;
 constexpr int kKinkIterations = 8;
 
-// Near kinks, where the gradient is not quite the derivative of the value, a step is also taken for
-// a gradient that becomes less by this part of what a gradient that changes evenly loses in it. Of
-// less a step that leads to and fro over a kink would be made.
+// Near kinks, where the gradient is not quite the derivative of the value, a step is also taken if
+// it reduces the gradient by this part of what it would if the gradient were linear. With a smaller
+// part, steps would be taken that hop to and fro over a kink.
 constexpr double kKinkFall = 0.25;
 
-// Filtered Hessians are too stiff where bodies slide along each other, so that energy still falls
-// behind a whole step. One at whose end the slope is above this part of that at its start goes on,
-// to where the slope would vanish if it changed evenly, at most so many times as far, and so many
-// times.
+// Filtered Hessians are too stiff where bodies slide along each other, so that the value often
+// keeps falling beyond a full step. A step at whose end the slope is still above this part of that
+// at its start is extended to where a linear slope would vanish, at most so many times as far at
+// once, and so many times.
 constexpr double kSteep = 0.35;
 constexpr double kMaxStretch = 4;
 constexpr int kMaxStretches = 4;
 constexpr double kMinStretch = 1.3;  // anything less is not worth an evaluation
 
-// Prescribed points that get no further than this part of their way, so many times in a row, are
+// Prescribed points that get no further than this part of their way, in so many steps in a row, are
 // blocked.
 constexpr double kBlocked = 1e-3;
 constexpr int kMaxBlockedSteps = 10;
 
-// @param part  Of what a gradient that changes evenly loses in a step, the least that is enough.
+// @param part  The least part, that is enough, of what a linear gradient would lose in the step.
 template <int Dim>
 bool has_less_gradient(const Evaluation<Dim>& at,
                        const Evaluation<Dim>& next,
@@ -74,7 +75,7 @@ public:
                 return report_;
             }
         }
-        if (options_.may_stop_short) {
+        if (options_.may_stop_short || has_converged()) {
             static_cast<void>(finish(residual()));
         } else if (!is_at_kink()) {
             fail("Newton's method did not reach its tolerance");
@@ -88,12 +89,8 @@ private:
         if (!std::isfinite(at_.value)) {
             return fail("the energy grew beyond all bounds");
         }
-        if (!is_pending_ && residual() <= options_.tolerance) {
+        if (has_converged()) {
             return finish(residual());
-        }
-        if (!is_current_) {
-            at_ = function_.evaluate(x_);
-            is_current_ = true;
         }
         ++report_.iterations;
         const NewtonDirection<Dim> direction =
@@ -105,7 +102,7 @@ private:
         if (!is_pending_ && correction < options_.min_correction) {
             return finish(0);
         }
-        // However short what is in the way cuts them.
+        // As the solve has them, however short collisions then cut them.
         astray_ = correction < options_.bound ? 0 : astray_ + 1;
         if (options_.max_astray > 0 && astray_ == options_.max_astray) {
             return fail("the motion grew beyond all bounds");
@@ -126,7 +123,8 @@ private:
             return fail("the motion grew beyond all bounds");
         }
         const bool has_changed = factor && function_.accept(x_);
-        // What a step could not leave, the next one cannot, either, unless the function changed.
+        // From a point that this step could not leave the next one fails likewise, unless the
+        // function changed.
         const bool is_stuck = !factor || (*factor == 0 && !is_pending_ && !has_changed);
         if (is_stuck && options_.may_stop_short && report_.iterations > 1) {
             return finish(residual());
@@ -144,18 +142,17 @@ private:
         }
         if (has_changed) {
             at_ = function_.evaluate(x_);
-            is_current_ = true;
         }
         return true;
     }
 
-    // Goes along a direction: `factor` of it, half of that and so on; more where `factor` is 1 and
-    // the value goes on falling. Returns how many times the direction was gone; nothing if the
-    // value does not fall.
+    // Backtracking line search: tries `factor` times the step, half of that and so on; goes farther
+    // where `factor` is 1 and the value keeps falling. Returns the factor that was taken; nothing
+    // if the value does not fall.
     std::optional<double> search(const Positions<Dim>& step, double factor) {
         const double slope = at_.gradient.cwiseProduct(step).sum();
         if (!is_pending_ && !(slope < 0)) {
-            return std::nullopt;  // it leads up
+            return std::nullopt;  // no direction of descent
         }
         Positions<Dim> trial;
         for (int k = 0; k < kMaxBacktracks; ++k, factor /= 2) {
@@ -169,11 +166,10 @@ private:
                 return factor;
             }
         }
-        is_current_ = false;
         return std::nullopt;
     }
 
-    // Goes on from a whole step while the value falls; returns how far in all.
+    // Goes on beyond a full step while the value falls; returns how far in all.
     //
     // @param from  Where the step began.
     double extend(const Positions<Dim>& from, const Positions<Dim>& step, double first_slope) {
@@ -193,7 +189,7 @@ private:
             Positions<Dim> trial = from + limit * wanted * step;
             Evaluation<Dim> next = function_.evaluate(trial);
             if (!(next.value < at_.value)) {
-                is_current_ = false;
+                at_ = function_.evaluate(x_);  // where accept() and solve() are to look
                 break;
             }
             take(trial, std::move(next));
@@ -202,15 +198,14 @@ private:
         return factor;
     }
 
-    // Leaves the point that was there in the trial's place.
+    // Makes a trial the current point, and leaves the point before in the trial's place.
     void take(Positions<Dim>& trial, Evaluation<Dim>&& next) {
         std::swap(x_, trial);
         at_ = std::move(next);
-        is_current_ = true;
     }
 
-    // Sufficient decrease of the value; where that drowns in rounding, of the gradient. So too near
-    // kinks, if the work of the gradient on the way tells that it leads down.
+    // Sufficient decrease of the value; of the gradient where the value changes by no more than its
+    // rounding, and near kinks where the slopes at both ends of the step tell that it leads down.
     [[nodiscard]] bool has_improved(const Evaluation<Dim>& next,
                                     const Positions<Dim>& step,
                                     double factor,
@@ -262,13 +257,17 @@ private:
         return true;
     }
 
+    [[nodiscard]] bool has_converged() const {
+        return !is_pending_ && residual() <= options_.tolerance;
+    }
+
     // How much of the gradient at the start is left, in the norm in which that is most.
     [[nodiscard]] double residual() const { return residual(function_.norms(at_.gradient)); }
     [[nodiscard]] double residual(const GradientNorms& now) const {
         double most = 0;
         for (std::size_t norm = 0; norm < now.size(); ++norm) {
             const double left = now[norm] == 0 ? 0 : now[norm] / first_.norms[norm];
-            most = left <= most ? most : left;  // that of what is not a number is not, either
+            most = left <= most ? most : left;  // NaN if one is
         }
         return most;
     }
@@ -289,13 +288,12 @@ private:
     Positions<Dim>& x_;
     Positions<Dim> start_;
     Evaluation<Dim> at_;           // at x
-    bool is_current_ = true;       // whether the function was last evaluated there
     Positions<Dim> displacement_;  // of prescribed points, to their places
     bool is_pending_ = false;      // whether they are still on their way
     int blocked_steps_ = 0;        // steps in a row that hardly moved them
     int astray_ = 0;               // corrections in a row that go beyond the bound
     NewtonStart first_;
-    Positions<Dim> best_;
+    Positions<Dim> best_;       // see remember()
     GradientNorms best_norms_;  // there; empty until there is one
     int best_age_ = 0;          // iterations since
     NewtonReport report_;

@@ -11,15 +11,15 @@ namespace pent::simulator {
 template <int Dim>
 struct Evaluation {
     double value = 0;
-    double rounding = 0;    ///< What terms of the value that cancel may leave of it.
+    double rounding = 0;    ///< Error of the value where large terms of it cancel.
     bool has_kink = false;  ///< Whether the gradient is not quite the derivative of the value here.
     Positions<Dim> gradient;  ///< Dim x points; 0 where a variable is fixed.
 };
 
-/// How large a gradient is: |gradient|, and the same in other norms in which as little may be left.
+/// Sizes of a gradient: |gradient|, and those in other norms. All of them have to become small.
 using GradientNorms = std::vector<double>;
 
-/// Where Newton's method would go.
+/// The Newton step from a point.
 template <int Dim>
 struct NewtonDirection {
     Positions<Dim> step;         ///< Dim x points.
@@ -28,7 +28,8 @@ struct NewtonDirection {
 
 /// What Newton's method minimizes: a function of the coordinates of many points.
 ///
-/// Some of them may be prescribed: they are not to be chosen, but to be brought to their places.
+/// Some of the points may be prescribed: they are no variables, but have to be brought to given
+/// places.
 template <int Dim>
 class Objective {
 public:
@@ -41,17 +42,17 @@ public:
 
     [[nodiscard]] virtual Evaluation<Dim> evaluate(const Positions<Dim>& x) = 0;
 
-    /// In the same norms at every call.
+    /// Sizes of a gradient, in the same norms at every call.
     [[nodiscard]] virtual GradientNorms norms(const Positions<Dim>& gradient) const {
         return {gradient.norm()};
     }
 
-    /// -(Hessian)^-1 gradient at the point last evaluated, prescribed points moving by
-    /// `displacement`.
+    /// The Newton step -(Hessian)^-1 gradient at the point last evaluated, prescribed points moving
+    /// by `displacement`.
     ///
     /// @param gradient   There, as evaluate() gave it.
-    /// @param tolerance  Residual of the linear solve over that at its start; 0 for the best there
-    /// is.
+    /// @param tolerance  Of the linear solve: its residual over that at its start; 0 for the best
+    ///                   there is.
     [[nodiscard]] virtual NewtonDirection<Dim> solve(const Positions<Dim>& gradient,
                                                      const Positions<Dim>& displacement,
                                                      double tolerance) = 0;
@@ -61,13 +62,14 @@ public:
         return Positions<Dim>::Zero(Dim, x.cols());
     }
 
-    /// The largest part of the way at which the value is finite all along, in [0, 1].
+    /// The largest fraction of the way, in [0, 1], along which the value is finite.
     [[nodiscard]] virtual double max_step(const Positions<Dim>& /*from*/,
                                           const Positions<Dim>& /*to*/) {
         return 1;
     }
 
-    /// Told of every point that was accepted. Returns whether the function has changed.
+    /// Called at every point that is accepted, which is then the point last evaluated. Returns
+    /// whether the function has changed, as where a stiffness adapts.
     [[nodiscard]] virtual bool accept(const Positions<Dim>& /*x*/) { return false; }
 };
 
