@@ -96,6 +96,45 @@ TEST(FailedStep, GivesBackWhatItsFirstHalfDid) {
     expect_all_given_back<4>(Integrator::Bdf2, ContactModel::Barrier);
 }
 
+// Forces are those of the state that a step comes back to: the first half of it was taken, and
+// walls of pressure were held where that led to.
+template <int Dim>
+void expect_forces_of_the_start() {
+    const SimplexMesh<Dim> cube = test::cube<Dim>(1);
+    const Eigen::VectorXd up = Eigen::VectorXd::Unit(Dim, 1);
+    Scene scene = test::box_scene<Dim>();
+    scene.gravity = -9.8 * up;
+    scene.solver.integrator = Integrator::NewtonEuler;
+    scene.solver.max_halvings = 1;
+    Motion away = test::still(Dim);
+    away.translate[0] = 1e9;
+    away.from = 4.5 * scene.dt();
+    scene.constraints = {{.body = "box",
+                          .select = {HalfSpaceSelection{.normal = up, .offset = 1e-6}},
+                          .motion = {away}}};
+    const double top = cube.positions.row(1).maxCoeff();
+    scene.loads = {{.body = "box",
+                    .select = {HalfSpaceSelection{.normal = -up, .offset = 1e-6 - top}},
+                    .force = {},
+                    .pressure = 1e4,
+                    .keyframes = {}}};
+    Simulation<Dim> simulation(scene, {cube});
+    for (int i = 0; i < 4; ++i) {
+        test::take_step(simulation);
+    }
+    const StepReport report = simulation.step();
+    EXPECT_FALSE(report.is_accepted);
+    EXPECT_EQ(report.substeps, 1);
+    const Positions<Dim> forces = simulation.forces(0);
+    simulation.restore(simulation.save());
+    EXPECT_LT((simulation.forces(0) - forces).norm(), 1e-9 * forces.norm());
+}
+
+TEST(FailedStep, LeavesTheForcesOfItsStart) {
+    expect_forces_of_the_start<3>();
+    expect_forces_of_the_start<4>();
+}
+
 // Of so little mass that the linear solver copes, while squares of the way to go are beyond all
 // numbers.
 TEST(FailedStep, IsOneWhoseMotionHasAnEnergyThatIsNotANumber) {

@@ -134,6 +134,39 @@ TYPED_TEST(BarrierRestore, TakesBodiesThatTouchWhereTheStateHoldsThem) {
     }
 }
 
+// A state that is refused leaves all as it was: forces of friction, too, which are held from the
+// start of the last step, and where an obstacle is.
+TYPED_TEST(BarrierRestore, ChangesNothingWhereItIsRefused) {
+    constexpr int kDim = TypeParam::value;
+    BarrierScene<kDim> scene;
+    scene.scene.gravity = vector<kDim>(0, -9.8);
+    scene.scene.contact->friction = 0.5;
+    scene.add(small_box<kDim>(), vector<kDim>(0, 0.11)).velocity = vector<kDim>(1, 0);
+    Motion rising;
+    rising.translate = vector<kDim>(0, 0.01);
+    scene.scene.obstacles = {{.shape = HalfSpaceObstacle{.normal = vector<kDim>(0, 1), .offset = 0},
+                              .motion = {rising}}};
+    Simulation<kDim> simulation(scene.scene, scene.meshes);
+    Simulation<kDim> other(scene.scene, scene.meshes);
+    for (int k = 0; k < 5; ++k) {
+        take_step(simulation);
+        take_step(other);
+    }
+    ASSERT_GT(simulation.energies().of("friction"), 0);
+    Snapshot<kDim> below = simulation.save();
+    below.steps += 10;
+    below.positions.row(1).array() -= 0.5;
+    EXPECT_THROW(simulation.restore(below), CrossingError<kDim>);
+    EXPECT_EQ(simulation.forces(0), other.forces(0));
+    EXPECT_EQ(simulation.contact_forces(0), other.contact_forces(0));
+    EXPECT_EQ(simulation.energies().of("friction"), other.energies().of("friction"));
+    EXPECT_EQ(std::get<HalfSpace<kDim>>(simulation.obstacles()[0]).offset,
+              std::get<HalfSpace<kDim>>(other.obstacles()[0]).offset);
+    take_step(simulation);
+    take_step(other);
+    expect_same(simulation, other);
+}
+
 // What a host holds from then on may touch on, but is not let go where it would not be free to
 // move.
 TYPED_TEST(BarrierRestore, HoldsOnToWhatTouches) {

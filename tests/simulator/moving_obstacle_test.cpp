@@ -77,6 +77,29 @@ TYPED_TEST(MovingObstacle, CarriesWhatLiesOnItByFriction) {
     }
 }
 
+// A state does not say how far things have slipped: restored it has no friction, on belts neither.
+TYPED_TEST(MovingObstacle, HasNoFrictionInARestoredState) {
+    constexpr int kDim = TypeParam::value;
+    for (const ContactModel model : kModels) {
+        Scene scene = cube_on_floor<kDim>(model);
+        scene.contact->friction = 0.5;
+        scene.obstacles[0].motion[0].translate[0] = 0.5;
+        Simulation<kDim> simulation(scene, {cube<kDim>(1)});
+        for (int i = 0; i < 5; ++i) {
+            ASSERT_TRUE(simulation.step().is_accepted);
+        }
+        ASSERT_GT(simulation.contact_forces(0).row(0).norm(), 0);
+        Simulation<kDim> other(scene, {cube<kDim>(1)});
+        other.restore(simulation.save());
+        EXPECT_GT(other.contact_forces(0).row(1).norm(), 0);
+        EXPECT_EQ(other.contact_forces(0).row(0).norm(), 0);
+        EXPECT_EQ(other.energies().of("friction"), 0);
+        ASSERT_TRUE(simulation.step().is_accepted);
+        ASSERT_TRUE(other.step().is_accepted);
+        EXPECT_EQ(other.positions(0), simulation.positions(0));
+    }
+}
+
 // In a lift that goes up or down at constant speed a belt gets as hold of a body as in one at rest.
 TYPED_TEST(MovingObstacle, HasTheFrictionOfTheWeightHoweverFastItRises) {
     constexpr int kDim = TypeParam::value;

@@ -1,4 +1,5 @@
-// What a barrier adds to contact: how far a step may go, how stiff it is, what crosses.
+// The parts of ContactPotential that only a barrier has: how far a step may go, how stiff it is,
+// what crosses.
 
 #include "potentials/contact_potential.h"
 #include "potentials/contact_scene.h"
@@ -93,20 +94,26 @@ std::vector<contact::Crossing> ContactPotential<Dim>::find_crossings(
 }
 
 template <int Dim>
-std::vector<contact::Crossing> ContactPotential<Dim>::find_crossings(
-    const Scene& scene,
-    const Bodies<Dim>& bodies,
-    const HeldVertices<Dim>& held,
-    const Positions<Dim>& x) const {
-    if (!is_barrier_
-        || (held.now() == finder_->scene().is_fixed
-            && held.always() == finder_->scene().is_always_fixed)) {
-        return find_crossings(x);
+std::vector<contact::Crossing> ContactPotential<Dim>::find_crossings(const Scene& scene,
+                                                                     const Bodies<Dim>& bodies,
+                                                                     const HeldVertices<Dim>& held,
+                                                                     const Positions<Dim>& x,
+                                                                     double time) const {
+    if (!is_barrier_) {
+        return {};
     }
+    const contact::ContactScene<Dim>& now = finder_->scene();
+    const std::vector<pent::ObstacleShape<Dim>> obstacles = motions_.at(time);
     return workers_->run([&] {
+        if (held.now() == now.is_fixed && held.always() == now.is_always_fixed) {
+            finder_->move_obstacles(obstacles);
+            std::vector<contact::Crossing> crossings = finder_->find_crossings(x);
+            finder_->move_obstacles(obstacles_);
+            return crossings;
+        }
         contact::ContactFinder<Dim> finder(
             contact_scene<Dim>(scene, bodies, held, do_bodies_meet_));
-        finder.move_obstacles(obstacles_);
+        finder.move_obstacles(obstacles);
         return finder.find_crossings(x);
     });
 }
@@ -146,7 +153,8 @@ std::string ContactPotential<Dim>::describe(const contact::Crossing& crossing) c
     template std::vector<contact::Crossing> ContactPotential<Dim>::find_crossings(                 \
         const Positions<Dim>&) const;                                                              \
     template std::vector<contact::Crossing> ContactPotential<Dim>::find_crossings(                 \
-        const Scene&, const Bodies<Dim>&, const HeldVertices<Dim>&, const Positions<Dim>&) const;  \
+        const Scene&, const Bodies<Dim>&, const HeldVertices<Dim>&, const Positions<Dim>&, double) \
+        const;                                                                                     \
     template std::string ContactPotential<Dim>::touching(const Positions<Dim>&,                    \
                                                          const Positions<Dim>&) const;             \
     template std::string ContactPotential<Dim>::describe(const contact::Crossing&) const;

@@ -179,9 +179,9 @@ bool ContactPotential<Dim>::set_sleepers(std::vector<double> stiffness) {
     return has_changed;
 }
 
-// A contact between bodies that all sleep, or are moved from outside, keeps the stiffness with
-// which they fell asleep: over the current one. Two that sleep fell asleep together, with the same.
-// With one that is awake it is the current one.
+// The stiffness of a contact over the current one. Where all bodies of it sleep, or are moved from
+// outside, it keeps that with which they fell asleep (two that sleep fell asleep together); where
+// one is awake it has the current one.
 template <int Dim>
 double ContactPotential<Dim>::stiffness_over_current(const contact::Contact<Dim>& contact) const {
     double factor = 1;

@@ -93,11 +93,13 @@ public:
     /// What crosses where a barrier is to keep things apart; empty without one.
     [[nodiscard]] std::vector<contact::Crossing> find_crossings(
         const Positions<Dim>& positions) const;
-    /// The same if these vertices were held, and no others.
+    /// The same if these vertices were held, and no others, with obstacles where they are at a
+    /// time, s.
     [[nodiscard]] std::vector<contact::Crossing> find_crossings(const Scene& scene,
                                                                 const Bodies<Dim>& bodies,
                                                                 const HeldVertices<Dim>& held,
-                                                                const Positions<Dim>& x) const;
+                                                                const Positions<Dim>& x,
+                                                                double time) const;
 
     /// Something that touches in the state that a step has led to, from which no step can begin;
     /// empty if nothing does. Newton's method keeps gaps above 0, but what is held arrives where it

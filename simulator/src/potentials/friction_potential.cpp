@@ -20,6 +20,10 @@ bool FrictionPotential<Dim>::set_time(const TimeSpan& step) {
 
 template <int Dim>
 bool FrictionPotential<Dim>::begin_step(const StepStart<Dim>& start) {
+    if (start.h == 0) {
+        friction_.end_step();
+        return true;
+    }
     const Positions<Dim>* velocities = start.is_linear ? &start.velocities : nullptr;
     if (contacts_->has_moving_obstacles()) {
         // With obstacles at the end of the step, one that comes nearer would press on a body that

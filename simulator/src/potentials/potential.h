@@ -22,7 +22,7 @@ struct StepStart {
     const Positions<Dim>& origin;      ///< Dim x vertices, m.
     /// Dim x vertices: from the origin to where Dirichlet vertices will be, m; 0 for all others.
     const Positions<Dim>& prescribed_displacement;
-    double h = 0;            ///< s.
+    double h = 0;            ///< s; 0 where forces are asked for, and no step begins.
     double rate = 0;         ///< 1/s.
     bool is_linear = false;  ///< A single linear solve, no Newton's method behind it.
 };

@@ -35,7 +35,7 @@ void Simulation<Dim>::Stepper::set_held(const std::map<std::uint32_t, Vector>& h
     if (!std::includes(vertices.begin(), vertices.end(), before.begin(), before.end())) {
         HeldVertices<Dim> after = held_;  // held vertices may touch one another, free ones may not
         static_cast<void>(after.hold_for_host(vertices, targets));
-        refuse_crossings(current_.positions, after);
+        refuse_crossings(current_.positions, after, time());
     }
     if (!held_.hold_for_host(std::move(vertices), targets)) {
         return;
@@ -45,7 +45,7 @@ void Simulation<Dim>::Stepper::set_held(const std::map<std::uint32_t, Vector>& h
     }
     number_dofs_of_the_free();
     forget_history();
-    evaluate_current();  // elements held all around have no part in it
+    evaluate_current();  // the energy leaves out elements that are held all around
 }
 
 template <int Dim>
@@ -116,8 +116,8 @@ void Simulation<Dim>::Stepper::set_body(int body,
     const auto range = bodies_.vertices(static_cast<std::size_t>(body));
     Positions<Dim> all = current_.positions;
     all.middleCols(range.begin, range.size) = positions;
-    refuse_crossings(all, held_);
-    // With what it carries, which is about to fall.
+    refuse_crossings(all, held_, time());
+    // What lies on the body is moved from its rest, too: it is about to fall.
     std::vector<std::size_t> moved = neighbors_of_body(static_cast<std::size_t>(body));
     moved.push_back(static_cast<std::size_t>(body));
     current_.positions = all;  // copied: hosts see the arrays where they lie

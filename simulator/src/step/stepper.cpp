@@ -69,7 +69,7 @@ Simulation<Dim>::Stepper::Stepper(const Scene& scene,
 
 template <int Dim>
 void Simulation<Dim>::Stepper::start() {
-    refuse_crossings(current_.positions, held_);
+    refuse_crossings(current_.positions, held_, time());
     evaluate_current();
 }
 
@@ -90,9 +90,9 @@ void Simulation<Dim>::Stepper::evaluate_current() {
     }
 }
 
-// The same for a state that no step has led to, as after a restore: what terms hold from the start
-// of a step (normal forces of friction, walls of pressure) is still that of another state, and is
-// taken anew from this one.
+// The same for a state that no step has led to, as after a restore, or where a step was refused:
+// what terms hold from the start of a step (walls of pressure) is still that of another state, and
+// is taken anew from this one; friction has no slip to go by, and is left out.
 template <int Dim>
 void Simulation<Dim>::Stepper::evaluate_anew() {
     evaluate_current();
@@ -100,8 +100,7 @@ void Simulation<Dim>::Stepper::evaluate_anew() {
     energy_.sum.begin_step({.positions = current_.positions,
                             .velocities = current_.velocities,
                             .origin = current_.positions,
-                            .prescribed_displacement = none,
-                            .h = scene_.dt()});
+                            .prescribed_displacement = none});
     evaluate_current();
 }
 
@@ -129,20 +128,15 @@ std::vector<std::uint8_t> Simulation<Dim>::Stepper::broken_springs() const {
 template <int Dim>
 void Simulation<Dim>::Stepper::restore(const Snapshot<Dim>& snapshot) {
     const double time = static_cast<double>(snapshot.steps) * scene_.dt();
-    energy_.sum.set_time({std::max(0.0, time - scene_.dt()), time});
-    // What is held is that of the last step until the next one begins.
+    // Until the next step begins, vertices are held as they were in the last one.
     const std::uint64_t last_step = std::max<std::uint64_t>(snapshot.steps, 1) - 1;
     HeldVertices<Dim> held = held_;
     static_cast<void>(held.hold(last_step, snapshot.positions));
     static_cast<void>(held.hold_for_host(snapshot.host.held, snapshot.host.targets));
-    try {
-        refuse_crossings(snapshot.positions, held);
-    } catch (const CrossingError<Dim>&) {
-        evaluate_current();  // obstacles are where they were
-        throw;
-    }
+    refuse_crossings(snapshot.positions, held, time);
+    energy_.sum.set_time({std::max(0.0, time - scene_.dt()), time});
     if (moves_sleepers(snapshot.positions)) {
-        asleep_.clear();  // the forces that they keep are those of where they lay
+        asleep_.clear();  // numbers dofs anew, so that their forces are those of where they lie now
     }
     current_.positions = snapshot.positions;
     current_.velocities = snapshot.velocities;
@@ -180,12 +174,13 @@ Energies Simulation<Dim>::Stepper::energies() const {
     return {kinetic_energy(current_.velocities), energy_.sum.energies()};
 }
 
-// Throws unless the barrier finds nothing that crosses, where these vertices are held.
+// Throws unless the barrier finds nothing that crosses at a time, where these vertices are held.
 template <int Dim>
 void Simulation<Dim>::Stepper::refuse_crossings(const Positions<Dim>& positions,
-                                                const HeldVertices<Dim>& held) const {
+                                                const HeldVertices<Dim>& held,
+                                                double time) const {
     const std::vector<contact::Crossing> crossings =
-        energy_.contact->find_crossings(scene_, bodies_, held, positions);
+        energy_.contact->find_crossings(scene_, bodies_, held, positions, time);
     if (!crossings.empty()) {
         throw crossing_error(bodies_, *energy_.contact, crossings, positions);
     }
@@ -240,7 +235,7 @@ void Simulation<Dim>::Stepper::hold_and_release() {
     }
 }
 
-// What sleeps does not move: exactly, where a formula would leave a rounding error.
+// Sets velocities of sleeping bodies to exactly zero, where a formula would leave a rounding error.
 template <int Dim>
 void Simulation<Dim>::Stepper::still(Positions<Dim>& velocities) const {
     for (std::size_t body = 0; body < bodies_.count(); ++body) {
@@ -341,7 +336,7 @@ StepReport Simulation<Dim>::Stepper::step() {
     const TimeSpan span{time(), time() + scene_.dt()};
     wake_on_obstacles(span);
     held_.begin_step_of_host(current_.positions, span.begin, span.end);
-    // Where the step began, if activations do work in it.
+    // Positions at the start, for the work of activations, if there is any in the step.
     const bool is_driven = !strain().changing_bodies(span.begin, span.end).empty();
     const Positions<Dim> start = is_driven ? current_.positions : Positions<Dim>(Dim, 0);
     const double stiffness_before = energy_.contact->stiffness();
@@ -369,7 +364,7 @@ StepReport Simulation<Dim>::Stepper::step() {
     } else {
         energy_.contact->set_stiffness(stiffness_before);
         energy_.sum.invalidate();
-        evaluate_current();
+        evaluate_anew();
     }
     report.step = steps_;
     report.time = time();

@@ -79,7 +79,7 @@ private:
     // What became of one attempt at a step or of several; the outcome is that of the last.
     struct Attempts {
         Outcome outcome = Outcome::Taken;
-        std::string failure;  // why the last one that was thrown away was; empty if none
+        std::string failure;  // why the last one that failed did; empty if none did
         int taken = 0;
         int refused = 0;
         int damped = 0;  // of those taken
@@ -115,7 +115,9 @@ private:
     void evaluate_anew();
     [[nodiscard]] TimeSpan last_step() const;
     [[nodiscard]] bool moves_sleepers(const Positions<Dim>& to) const;
-    void refuse_crossings(const Positions<Dim>& positions, const HeldVertices<Dim>& held) const;
+    void refuse_crossings(const Positions<Dim>& positions,
+                          const HeldVertices<Dim>& held,
+                          double time) const;
     void add_work(StepReport& report);
     [[nodiscard]] std::vector<std::uint8_t> broken_springs() const;
     [[nodiscard]] std::vector<RegionSummary> regions() const;
@@ -140,7 +142,7 @@ private:
     Positions<Dim> forces_;  // at the current positions, N
     State<Dim> history_;     // one step of full length ago, for BDF2; else no columns
     std::uint64_t steps_ = 0;
-    std::optional<Vector> gravity_;  // a host's
+    std::optional<Vector> gravity_;  // in place of the scene's, if a host has set it
     std::uint64_t next_grab_ = 1;
 };
 
