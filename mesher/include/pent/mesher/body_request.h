@@ -40,26 +40,27 @@ struct ExtrusionRequest {
     std::optional<double> thickness;
     /// The whole extrusion as a vector of the body's space, m; instead of thickness.
     std::optional<Eigen::VectorXd> direction;
-    int layers = 0;  ///< Slabs of simplices, 1 to 1e6; 0: so that the lowest is as
-                     ///< automatic_slabs() has it.
+    int layers = 0;  ///< Slabs of simplices, 1 to 1e6; 0: as many as make the lowest one as high as
+                     ///< automatic_slabs() chooses.
     /// Each slab is this many times as high as its neighbor towards w = 0, where slices are; >= 1.
     double grade = 1;
     /// Heights of the slabs from w = 0 outward, to either side of it where the extrusion has two;
-    /// instead of layers and grade, m. They are the thickness, or share out the one that is asked
-    /// for: along a round body's meridian, along the way of a profile.
+    /// instead of layers and grade, m. Their sum is the thickness; where a thickness is given too,
+    /// or the body is round or has a profile, they divide that length in proportion (that of half a
+    /// meridian, or of the profile's path).
     std::vector<double> layer_heights;
     Anchor anchor = Anchor::Middle;
     std::filesystem::path profile;  ///< File of layers (see read_profile), instead of thickness and
                                     ///< direction; with layers, grade or heights see relayer().
-    bool round = false;  ///< To a point at both ends, see round_layers(); thickness is the whole
-                         ///< height, and by default the largest side.
-    bool alternate = true;
-    bool is_kept = false;  ///< Base and layers are wanted beside the mesh: Body::extrusion.
+    bool round = false;     ///< To a point at both ends, see round_layers(); thickness is the whole
+                            ///< height, and by default the largest side.
+    bool alternate = true;  ///< See ExtrudeOptions.
+    bool is_kept = false;   ///< Base and layers are wanted beside the mesh: Body::extrusion.
     VertexOrder order = VertexOrder::Index;
     std::filesystem::path edge_directions;  ///< File of directed edges, instead of an order.
 };
 
-/// How an image becomes a body: by one of level and labels.
+/// How an image becomes a body: either by a level or by labels, never both.
 struct ImageRequest {
     std::optional<double> level;  ///< The body is where samples are above it.
     bool is_labels = false;       ///< Samples are numbers of regions, 0 is outside; cells get them.
@@ -94,14 +95,15 @@ struct BodyRequest {
     ImageRequest image;
     /// Called when a stage of the work begins, as in "fill".
     std::function<void(const std::string& stage)> on_stage;
-    /// Called with an estimate before a surface is filled or a shape stuffed, and with the number
-    /// before other cells are made, unless target_cells asks for one. May throw to stop the work.
+    /// Called with an estimate before a surface is filled or a shape stuffed, and with the exact
+    /// number before other cells are made; not before what target_cells decides. May throw to stop
+    /// the work.
     std::function<void(const ExpectedSize&)> on_size;
     int subdivide = 1;  ///< Every edge of the body is cut in this many parts, see subdivide().
     bool is_quadratic = false;  ///< Then made ready for quadratic elements, see make_quadratic().
-    bool is_curved = false;     ///< Their middles on the boundary's surface, see curve_boundary():
-                                ///< of quadratic ones alone, not subdivided; of 4D what is stuffed,
-                                ///< of 3D spheres and balls.
+    bool is_curved = false;  ///< Moves mid-edge vertices of the boundary onto the curved surface,
+                             ///< see curve_boundary(). Of quadratic cells that are not
+                             ///< subdivided: stuffed ones in 4D, spheres and balls in 3D.
 
     /// Sets what every step that may crash or run away is allowed.
     void limit_steps(const StepLimits& limits) {

@@ -14,13 +14,14 @@ struct BoundaryReport {
     std::int64_t tetrahedra = 0;     ///< As read.
     std::int64_t merged_points = 0;  ///< Points at the same place as another one.
     std::int64_t degenerate = 0;     ///< Tetrahedra with a corner twice: left out.
-    std::int64_t repeated = 0;       ///< More than one on the same corners: one of them, or none
-                                     ///< where they face each other.
+    std::int64_t repeated = 0;       ///< Duplicates of earlier tetrahedra: of each set one is kept,
+                                     ///< or none where they face each other.
     std::int64_t turned = 0;         ///< Tetrahedra turned over to face as their neighbors do.
-    std::int64_t open = 0;           ///< Triangles with more on one side than on the other.
+    std::int64_t open = 0;           ///< Triangles that more tetrahedra see from one side than from
+                                     ///< the other.
     std::int64_t holes = 0;          ///< Closed by a cone over the triangles around them.
-    double largest_hole = 0;         ///< What closes it, m^3.
-    Eigen::Vector4d hole_place = Eigen::Vector4d::Zero();  ///< The middle of the largest one, m.
+    double largest_hole = 0;         ///< Volume of the cone that closes the largest one, m^3.
+    Eigen::Vector4d hole_place = Eigen::Vector4d::Zero();  ///< The tip of that cone, m.
     std::int64_t inner = 0;    ///< Tetrahedra with the body, or none of it, on both sides.
     std::int64_t patches = 0;  ///< Smooth parts that meet at ridges.
 
@@ -38,9 +39,9 @@ struct BoundarySolid {
     BoundaryReport report;
 };
 
-/// The body within a closed hypersurface of tetrahedra: all points that it winds around, either
-/// way. The function is the distance to the nearest point of the hypersurface; which side a point
-/// is on is decided exactly, by the tetrahedra that a ray from it crosses.
+/// The body within a closed hypersurface of tetrahedra: all points whose winding number is not
+/// zero. Its function is the signed distance to the hypersurface; the sign is decided exactly, by
+/// the tetrahedra that a ray from the point crosses.
 ///
 /// A hypersurface that is not closed is closed first: holes get cones from their middles over the
 /// triangles around them, after which every ray from a point crosses it equally often. Its pieces
@@ -49,15 +50,15 @@ struct BoundarySolid {
 ///
 /// @param surface   Any; tetrahedra of finite points.
 /// @param may_mend  If not, one that is not closed and embedded is refused.
-/// Throws an Error that begins with `name` for one that may not be mended, that encloses nothing,
-/// with a hole of a quarter of it, with what, how many and where, or that is not within 1e-30 to
-/// 1e30 m across.
+/// Throws an Error that begins with `name` for one that has faults and may not be mended (which,
+/// how many and where), that encloses nothing, that has a hole of more than a quarter of its
+/// volume, or that is not within 1e-30 to 1e30 m across.
 [[nodiscard]] BoundarySolid boundary_solid(const exchange::TetSurface& surface,
                                            const std::string& name,
                                            bool may_mend = true);
 
-/// Whether a file is one that pent::exchange reads and that is no surface or tet mesh of three
-/// dimensions: by its ending, and that of .off and .obj files by how they begin.
+/// Whether pent::exchange reads a file as one of four dimensions: by the ending of its name; where
+/// surfaces of three dimensions have the same ending, as .off and .obj, by its first lines.
 [[nodiscard]] bool is_boundary_file(const std::filesystem::path& path);
 
 /// The boundary in a file of any format of pent::exchange; that of its body if it holds one.

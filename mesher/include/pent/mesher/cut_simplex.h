@@ -22,12 +22,12 @@ using CutPiece = std::vector<CutCorner>;
 
 /// The part of a simplex inside a surface, as simplices.
 ///
-/// With k corners inside, m outside and z on the surface, it is the product of simplices of
-/// dimensions k - 1 and m, joined with one of dimension z - 1: inside corner n stands for (n, n),
-/// the cut of the edge from n to p for (n, p). The product gets its staircases, the monotone
-/// paths in the order of the corners: C(k - 1 + m, m) pieces. What a face of the simplex sees
-/// depends on its own corners and their order alone, so neighbors that order their corners alike
-/// agree.
+/// With k corners inside, m outside and z on the surface, it is combinatorially the product of
+/// simplices of dimensions k - 1 and m, joined with one of dimension z - 1: inside corner n stands
+/// for (n, n), the cut of the edge from n to p for (n, p). The product gets its staircase
+/// triangulation, one simplex for each monotone path: C(k - 1 + m, m) pieces. What a face of the
+/// simplex sees depends on its own corners and their order alone, so neighbors that order their
+/// corners alike agree.
 ///
 /// @param sides  One a corner. Without one inside there are no pieces.
 /// @return       Pieces with the orientation of the simplex, wherever the cuts are on their edges.
@@ -37,7 +37,7 @@ using CutPiece = std::vector<CutCorner>;
 struct StuffingProof {
     int dim = 0;
 
-    std::int64_t patterns = 0;  ///< Sides of the corners with one inside or more.
+    std::int64_t patterns = 0;  ///< Assignments of sides to the corners, one inside or more.
     std::int64_t pieces = 0;    ///< Of all patterns.
     std::int64_t positive = 0;  ///< Pieces whose volume is a positive product of the parts into
                                 ///< which edges are cut: positive wherever the cuts are.

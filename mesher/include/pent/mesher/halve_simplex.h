@@ -25,8 +25,9 @@ using HalvedPiece = std::vector<HalvedCorner>;
 /// on its corners and these middles: their Delaunay triangulation. All edges cut give the lattice
 /// of half the spacing.
 ///
-/// It is the lower hull of the points at the height of their squared distance; of points on a
-/// common sphere the middle of an earlier edge counts as lower. What a face of the simplex sees
+/// It is the lower hull of the points lifted to the paraboloid (the height of each is its squared
+/// distance from the origin); of points on a common sphere the middle of an earlier edge counts as
+/// lower, so that the triangulation is unique. What a face of the simplex sees
 /// depends on its own corners, their order and middles alone, so neighbors agree. Corners are in
 /// the order of the path of the lattice.
 ///

@@ -24,7 +24,8 @@ struct Image {
     }
     [[nodiscard]] float value(const Eigen::Vector4i& at) const { return values[index(at)]; }
 
-    /// The cell of the grid that a point is in, brought into the grid, and where in it, 0 to 1.
+    /// The cell of the grid that holds a point, or the nearest point of the grid if it is outside,
+    /// and where in the cell that is, 0 to 1 along each axis.
     struct Cell {
         Eigen::Vector4i low;
         Eigen::Vector4d part;

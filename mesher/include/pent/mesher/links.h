@@ -16,9 +16,9 @@ struct LinkReport {
     std::vector<bool> is_faulty;       ///< One a vertex.
 };
 
-/// Checks the link of every boundary vertex: the facets around it, each without it. The boundary is
-/// a manifold if all are spheres: two points, one circle, or one surface of Euler characteristic 2
-/// in dimension 2, 3, 4.
+/// Checks the link of every boundary vertex: what remains of the boundary facets around it if the
+/// vertex is taken out of each. The boundary is a manifold exactly if all links are spheres: two
+/// points, one circle, or one connected surface of Euler characteristic 2 in dimension 2, 3, 4.
 ///
 /// @param mesh  Conforming with a closed boundary: see prove().
 template <int Dim>

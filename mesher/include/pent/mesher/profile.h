@@ -24,19 +24,19 @@ namespace pent::mesher {
 /// @param places  -1/2 for the first end to 1/2 for the last, 0 for the widest layer; 3 or more.
 [[nodiscard]] std::vector<Layer<4>> round_layers(double radius, const std::vector<double>& places);
 
-/// Length of the way through the middles of the layers, m.
+/// Length of the polyline through the offsets of the layers, m.
 [[nodiscard]] double path_length(const std::vector<Layer<4>>& layers);
 
-/// Where the way through the middles of the layers first crosses w = 0, as a share of its length;
-/// where it does not, the end that is nearer to w = 0.
+/// Where the polyline through the offsets of the layers first crosses w = 0, as a share of its
+/// length; where it does not, the end that is nearer to w = 0.
 [[nodiscard]] double slice_on_path(const std::vector<Layer<4>>& layers);
 
-/// Other layers of the same body: at these places along the way through the middles, each halfway
-/// between its two neighbors as far as it lies between them. The columns run straight from layer
-/// to layer before and after; where a bend of theirs gets no layer it is cut.
+/// Resamples the layers of a body: at these places along the polyline through their offsets, each
+/// interpolated linearly between the two layers that it lies between. Columns of vertices were
+/// straight from layer to layer and are so again; a bend at which no new layer lies is cut off.
 ///
-/// @param places  Shares of the length of the way, from 0 to 1.
-/// Throws an Error if two layers in a row have one middle, or nothing is left between two points.
+/// @param places  Shares of the length of the polyline, from 0 to 1.
+/// Throws an Error if two layers in a row have one offset, or nothing is left between two points.
 [[nodiscard]] std::vector<Layer<4>> relayer(const std::vector<Layer<4>>& layers,
                                             const std::vector<double>& places);
 

@@ -13,8 +13,8 @@ struct Proof {
     std::int64_t interior_facets = 0;  ///< Shared by two cells, seen from opposite sides.
     std::int64_t boundary_facets = 0;
     std::int64_t faulty_facets = 0;  ///< Seen twice from one side, or shared by more than two.
-    std::int64_t faulty_ridges = 0;  ///< Facets of the boundary's facets that are not shared by
-                                     ///< exactly two of them, from opposite sides.
+    std::int64_t faulty_ridges = 0;  ///< Ridges (facets of the boundary's facets) that are not
+                                     ///< shared by exactly two of these, from opposite sides.
     double volume = 0;               ///< Sum over the cells, m^Dim.
     double boundary_volume = 0;  ///< The same by the divergence theorem over the boundary, m^Dim.
     double expected_volume = 0;  ///< What the caller knows it must be, or boundary_volume.

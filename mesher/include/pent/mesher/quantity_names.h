@@ -8,7 +8,7 @@
 
 namespace pent::mesher {
 
-/// What a mesh has beside its shape: quantities of vertices, of cells, and "fibers".
+/// The names of all quantities of a mesh: those of vertices, those of cells, and "fibers".
 template <int Dim>
 [[nodiscard]] std::vector<std::string> quantity_names(const SimplexMesh<Dim>& mesh,
                                                       const MeshExtras<Dim>& extras);

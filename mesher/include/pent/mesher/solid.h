@@ -27,14 +27,14 @@ struct Sample {
     double value = 0;
 };
 
-/// The same with how it changes there.
+/// The value of a function at a point, and its gradient there.
 struct ValueSlope {
     double value = 0;
     Eigen::Vector4d slope = Eigen::Vector4d::Zero();
 };
 
-/// A body of four dimensions as a function of the point: negative inside, positive outside, zero
-/// on the boundary; made from primitives (see primitives.h) by the operations below.
+/// A body of four dimensions as an implicit function of the point: negative inside, positive
+/// outside, zero on the boundary; made from primitives (see primitives.h) by the operations below.
 ///
 /// The boundary consists of smooth pieces, each the zeros of a function of its own; ridges are
 /// where pieces meet at an angle. Safe to ask from several threads.
@@ -47,10 +47,12 @@ public:
     /// @param step  Differences are taken over this (m) where no slope is known: of expressions.
     [[nodiscard]] ValueSlope value_slope(const Eigen::Vector4d& p, double step) const;
 
-    /// Questions that take less than value() where the surface is that of a file.
+    // Questions that take less time than value() where the surface is that of a file: there the
+    // distance and the side of a point are found separately, and one of them may be enough.
 
-    /// The same, or, where it is further from 0, something between `enough` (m) and it.
-    /// @param known  What this gave at points near by.
+    /// The value if it is nearer to 0 than `enough` (m); else a number of the same sign, between
+    /// `enough` and the value.
+    /// @param known  What this gave at points near by, which may tell the sign.
     [[nodiscard]] double value_near(const Eigen::Vector4d& p,
                                     double enough,
                                     std::span<const Sample> known) const;
@@ -61,21 +63,21 @@ public:
     /// Whether the value is nearer to 0 than `distance`, m.
     [[nodiscard]] bool is_near_surface(const Eigen::Vector4d& p, double distance) const;
 
-    /// The slope of value_slope() where the value is known.
+    /// The slope of value_slope() where the value is known already.
     [[nodiscard]] Eigen::Vector4d slope(const Sample& at, double step) const;
 
-    /// Whether the surface is that of a boundary of tetrahedra alone.
+    /// Whether this is one boundary of tetrahedra, placed and scaled perhaps, and nothing else.
     [[nodiscard]] bool is_boundary() const;
 
-    /// The zero nearest to a point; of a boundary of tetrahedra alone, else nothing.
+    /// The point of the surface nearest to a point; nothing unless is_boundary().
     [[nodiscard]] std::optional<Eigen::Vector4d> foot(const Eigen::Vector4d& p) const;
 
-    /// The point of a piece nearest to a point; of one of such a boundary, else nothing.
+    /// The point of a piece nearest to a point; nothing for pieces of other than tetrahedra.
     [[nodiscard]] std::optional<Eigen::Vector4d> piece_foot(int piece,
                                                             const Eigen::Vector4d& p) const;
 
-    /// The part of the way from a point outside to one inside at which it first meets the surface;
-    /// of a boundary of tetrahedra alone, else nothing, and nothing if rounding hides it.
+    /// At which part of the way from a point outside to one inside it first meets the surface;
+    /// nothing unless is_boundary(), and nothing if rounding hides it.
     [[nodiscard]] std::optional<double> first_crossing(const Eigen::Vector4d& outside,
                                                        const Eigen::Vector4d& inside) const;
 

@@ -32,7 +32,8 @@ struct SpaceTimeBody {
     MeshExtras<4> extras;
     std::vector<std::uint32_t> frame_layers;  ///< The layer of each frame.
     std::string way_of_bisection;  ///< How it became ready for that; empty if not asked for.
-    double integral = 0;   ///< Of the volume over w, vertices on straight ways between frames, m^4.
+    double integral = 0;   ///< Of the tetrahedra's volume over w, as vertices move on straight ways
+                           ///< from frame to frame, m^4.
     double base_edge = 0;  ///< Mean length at the first frame, m.
     double lowest_layer = 0;   ///< m.
     double highest_layer = 0;  ///< m.

@@ -23,8 +23,7 @@ struct ThinParts {
 /// A solid as a mesh, and what it took.
 struct StuffedSolid {
     SimplexMesh<4> mesh;
-    std::int64_t moved_back =
-        0;                     ///< Lattice points that had to leave the surface again, see stuff().
+    std::int64_t moved_back = 0;  ///< Lattice points whose move onto the surface was undone.
     std::int64_t beveled = 0;  ///< Edges, triangles and tetrahedra of the boundary that still cross
                                ///< a ridge, since cells would have become too flat.
     ThinParts thin_parts;
@@ -33,11 +32,11 @@ struct StuffedSolid {
 /// Fills a solid with pentachora by stuffing a lattice of congruent ones [labelle2007].
 ///
 /// Inside, all cells are those of the lattice A4* (but between sizes, see below). Lattice points
-/// near the surface move onto it, the simplices that the surface then still cuts get the pieces of
-/// cut_simplex(). Where the boundary is not a manifold, points move back; without them it always
-/// is. Then boundary simplices that cross ridges are bent or split so that they follow them, and
-/// vertices of the worst cells move, those on the surface along it. All boundary vertices lie on
-/// the surface to 1e-6 edges.
+/// near the surface move onto it, and of the simplices that the surface still cuts then the parts
+/// inside are kept, see cut_simplex(). Where the boundary is not a manifold, moves are undone;
+/// without any it always is one. Then boundary simplices that cross ridges are bent or split so
+/// that they follow them, and vertices of the worst cells move, those on the surface along it. All
+/// boundary vertices lie on the surface to 1e-6 edges.
 ///
 /// The same bytes at any number of threads.
 /// @param edge_length  Mean length of the edges inside, m, above 0; where they are shortest.
@@ -50,7 +49,7 @@ struct StuffedSolid {
                                  double edge_length,
                                  const SizeField& sizes = {});
 
-/// About how many cells stuff() gives, without the work: of the part of 16^4 points that is inside.
+/// About how many cells stuff() gives, without the work: by how many of 16^4 points are inside.
 /// Throws as stuff() does for edges that the solid's parts are too thin for, and for one without
 /// bounds.
 [[nodiscard]] double estimate_cells(const Solid& solid,

@@ -22,8 +22,8 @@ namespace pent::mesher {
 template <int Dim>
 [[nodiscard]] SimplexMesh<Dim> subdivide(const SimplexMesh<Dim>& mesh, int k);
 
-/// What the vertices and cells of a mesh (Dim 3 or 4) have as what those of subdivide() have:
-/// linear between vertices, of cells handed down.
+/// The quantities of a mesh (Dim 3 or 4) for what subdivide() makes of it: those of vertices are
+/// interpolated linearly, those of a cell go to all cells that it is cut into.
 template <int Dim>
 [[nodiscard]] MeshExtras<Dim> subdivide_fields(const SimplexMesh<Dim>& mesh,
                                                const MeshExtras<Dim>& fields,
