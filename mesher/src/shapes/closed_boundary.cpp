@@ -23,7 +23,7 @@ using Eigen::Vector4d;
 using Tetrahedron = std::array<std::uint32_t, 4>;
 using Triangle = std::array<std::uint32_t, 3>;
 
-// The largest part that what closes a hole may have of what is there.
+// The largest volume of what closes a hole, as a part of that of the boundary.
 constexpr double kLargestHole = 0.25;
 
 // Sorts corners; true if that turns the simplex over.
@@ -41,7 +41,8 @@ bool sort_corners(std::array<std::uint32_t, Corners>& corners) {
     return is_odd;
 }
 
-// A triangle of a tetrahedron: its corners increasing, and from which side that sees it.
+// A triangle of a tetrahedron: its corners increasing, and the side (1 or -1) from which the
+// tetrahedron sees it.
 struct Side {
     Triangle corners{};
     std::uint32_t tetrahedron = 0;
@@ -75,7 +76,8 @@ void for_each_triangle(const std::vector<Side>& sides, const Visit& visit) {
         sides, [](const Side& a, const Side& b) { return a.corners == b.corners; }, visit);
 }
 
-// The triangles out of balance, each as often and so turned as the tetrahedra have it.
+// The triangles that more tetrahedra see from one side than from the other; `sign` is by how many,
+// and from which side.
 std::vector<Side> rim_of(const std::vector<Tetrahedron>& tetrahedra) {
     const std::vector<Side> sides = sides_of(tetrahedra);
     std::vector<Side> rim;
@@ -93,10 +95,10 @@ std::vector<Side> rim_of(const std::vector<Tetrahedron>& tetrahedra) {
     return rim;
 }
 
-// Tetrahedra on different corners: as they face in sum, each once, or as the first of them does.
+// One tetrahedron for all that are on the same corners.
 struct Distinct {
-    std::vector<Tetrahedron> balanced;
-    std::vector<Tetrahedron> first_of_each;
+    std::vector<Tetrahedron> balanced;       // facing as most of them do; none if they cancel
+    std::vector<Tetrahedron> first_of_each;  // facing as the first one does
 };
 
 void add_facing(Tetrahedron corners, int sign, std::vector<Tetrahedron>& tetrahedra) {
@@ -243,7 +245,7 @@ void close_holes(Positions<4>& points,
         points.col(tip) = middle;
         double volume = 0;
         for (const Side& side : hole) {
-            // The boundary of a cone begins with its base.
+            // The base has the sign 1 in the boundary of the cone, which has to cancel the rim.
             Tetrahedron cone = {tip, side.corners[0], side.corners[1], side.corners[2]};
             if (side.sign > 0) {
                 std::swap(cone[2], cone[3]);

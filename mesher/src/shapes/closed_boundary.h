@@ -4,8 +4,8 @@
 
 namespace pent::mesher {
 
-/// Brings a hypersurface to a cycle: with every triangle on as many tetrahedra that see it from one
-/// side as from the other. Then the number of times that it winds around a point is whole.
+/// Makes a hypersurface a cycle, in which as many tetrahedra see every triangle from one side as
+/// from the other. Then it winds around every point a whole number of times.
 ///
 /// Points at the same place become one. Of tetrahedra on the same corners those that face each
 /// other cancel. If that is a cycle it stays as it is, whatever crosses or touches. Else

@@ -97,9 +97,10 @@ std::int64_t scaled_volume(const CutPiece& piece) {
     return std::int64_t{1} << (static_cast<std::int64_t>(piece.size()) - 1 - cuts);
 }
 
-// The same of all of the part inside: where the coordinates of the corners inside have a larger
-// sum than those outside. Corners on the surface do not matter; that k of k + m exponential
-// variables have the larger sum is that fewer than k of k + m - 1 coins show heads.
+// The same of the whole part inside: where the barycentric coordinates of the corners inside have a
+// larger sum than those outside. Corners on the surface do not matter. Uniform barycentric
+// coordinates are exponential variables over their sum; that k of k + m of these have the larger
+// sum is as probable as that fewer than k of k + m - 1 coins show heads.
 std::int64_t scaled_volume_inside(int dim, int inside, int outside) {
     const int coins = inside + outside - 1;
     std::int64_t sum = 0;

@@ -25,7 +25,7 @@ int flat_sign(const std::array<Point3, 3>& t, int first, int second) {
                              Point2(t[2][first], t[2][second]));
 }
 
-// Sign of det[t1 - t0, t2 - t0, p - t0] for the point moved a little; 0 for flat triangles alone.
+// Sign of det[t1 - t0, t2 - t0, p - t0] for the perturbed point; 0 for flat triangles alone.
 int side_sign(const std::array<Point3, 3>& t, const Point3& p) {
     const int sign = CGAL::orientation(t[0], t[1], t[2], p);
     if (sign != 0) {
@@ -44,7 +44,8 @@ int height_sign(const Matrix4d& corners, const Vector4d& p) {
     Matrix4d edges;
     edges.leftCols<3>() = corners.rightCols<3>().colwise() - corners.col(0);
     edges.col(3) = p - corners.col(0);
-    // The differences and some 40 operations on products of at most these lengths.
+    // Bounds the rounding of the differences and of some 40 operations on products of at most these
+    // lengths, so that exact arithmetic, which is slow, is for the few that are closer to 0.
     constexpr double kRounding = 1e-14;
     const double bound =
         kRounding * edges.colwise().norm().prod()
@@ -76,7 +77,9 @@ int crossing_sign(const Matrix4d& corners, const Vector4d& point) {
                                      shadow_of(corners.col(2)), shadow_of(corners.col(3))};
     const Point3 p = shadow_of(point);
     const int sign = CGAL::orientation(c[0], c[1], c[2], c[3]);
-    // The point in place of each corner; bringing it to the last place turns every other one over.
+    // Whether the point is on the inner side of each face: with the point in place of each corner
+    // the sign stays. Moving it to the last place, where side_sign() has it, turns every other one
+    // over.
     const bool is_within = sign != 0 && side_sign({c[0], c[1], c[2]}, p) == sign
                            && side_sign({c[0], c[1], c[3]}, p) == -sign
                            && side_sign({c[0], c[2], c[3]}, p) == sign

@@ -13,7 +13,7 @@ using Eigen::Vector4d;
 
 constexpr std::uint32_t kLeaf = 4;  // pieces to a leaf
 
-// Of sums of five products of coordinates.
+// Relative bound for the rounding of sums of five products.
 constexpr double kRounding = 1e-14;
 
 }  // namespace
@@ -54,7 +54,7 @@ void HalfSpaces::build(std::uint32_t first, std::uint32_t count) {
     nodes_[node].after = static_cast<std::uint32_t>(nodes_.size());
 }
 
-// No piece of the node has a larger value.
+// An upper bound for the values of the pieces of a node.
 double HalfSpaces::most(const Node& node, const Vector4d& p) const {
     const double slack = kRounding * (p.cwiseAbs().sum() + largest_offset_);
     return node.low.cwiseProduct(p).cwiseMax(node.high.cwiseProduct(p)).sum() - node.least_offset

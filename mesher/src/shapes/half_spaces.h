@@ -17,8 +17,8 @@ struct HalfSpace {
     [[nodiscard]] double value(const Eigen::Vector4d& p) const { return normal.dot(p) - offset; }
 };
 
-/// The common part of half-spaces, one a piece, in a tree by their normals: of many only those
-/// that look towards a point are asked.
+/// The intersection of half-spaces, one a piece, in a tree by their normals: of many only those
+/// whose normals point towards a point are evaluated.
 class HalfSpaces {
 public:
     /// @param pieces  One or more.

@@ -17,20 +17,21 @@ namespace {
 
 constexpr int kMaxCorners = 5;
 
-// Corners and middles of a simplex by their coordinates in its corners, times two: whole numbers.
+// Corners and middles of a simplex, by their barycentric coordinates times two: whole numbers.
 struct Points {
     int corners = 0;
     std::vector<HalvedCorner> names;  // corners first, then edges by number
     std::vector<int> heights;
 
-    // Of a face of a simplex of the lattice, whose corners are these steps along its path.
+    // Of a face of a simplex of the lattice that has these of its corners, numbered along its path.
     Points(const std::vector<int>& levels, int dim) : corners(static_cast<int>(levels.size())) {
         for (int i = 0; i < corners; ++i) {
             names.push_back({static_cast<std::uint8_t>(i), static_cast<std::uint8_t>(i)});
             heights.push_back(0);
         }
-        // Less what is linear between corners, the square of a middle is that of half its edge: a
-        // step along k axes has k (n + 1 - k), in units of the lattice.
+        // Heights may be changed by what is linear between corners. Less that, the squared distance
+        // of a middle is minus that of half its edge: a step along k axes has k (n + 1 - k), in
+        // units of the lattice.
         for (int i = 0; i < corners; ++i) {
             for (int j = i + 1; j < corners; ++j) {
                 const int steps = levels[j] - levels[i];
@@ -56,7 +57,7 @@ std::array<int, kMaxCorners> coordinates(const HalvedCorner& name) {
     return row;
 }
 
-// By the first row: dimensions are few.
+// By expansion along the first row, as dimensions are few; `used` has the columns taken before.
 int determinant(const Rows& rows, std::size_t row, unsigned used) {
     if (row == rows.size()) {
         return 1;

@@ -8,7 +8,7 @@ namespace pent::mesher {
 
 inline constexpr int kKeyBits = 16;  ///< Of a coordinate.
 
-/// Each bit of a coordinate four places from the next, and back.
+/// Moves the bits of a coordinate four places apart, as a Morton key has them; and back.
 inline std::uint64_t spread(std::uint64_t z) {
     z = (z | z << 24) & 0x000000ff000000ffULL;
     z = (z | z << 12) & 0x000f000f000f000fULL;
@@ -24,7 +24,7 @@ inline int gathered(std::uint64_t z) {
     return static_cast<int>((z | z >> 24) & 0xffffULL);
 }
 
-/// Bits of four coordinates in turn. Where all coordinates grow, so does the key.
+/// Morton key: the bits of four coordinates interleaved. It never falls where no coordinate does.
 inline std::uint64_t key_of(const Eigen::Vector4i& z) {
     std::uint64_t key = 0;
     for (int axis = 0; axis < 4; ++axis) {
@@ -41,7 +41,8 @@ inline bool is_key_in_range(const Eigen::Vector4i& z) {
     return z.minCoeff() >= 0 && z.maxCoeff() < 1 << kKeyBits;
 }
 
-/// Digits of base 3.
+/// Four digits of base 3, one an axis: a place among the 3^4 corners and middles of a cell, or,
+/// less 1 each, the way to one of the cells around it.
 inline Eigen::Vector4i digits(unsigned place) {
     const auto p = static_cast<int>(place);
     return {p % 3, p / 3 % 3, p / 9 % 3, p / 27};

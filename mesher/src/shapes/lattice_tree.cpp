@@ -19,14 +19,13 @@ namespace {
 constexpr std::uint32_t kTask = 256;  // cells or points
 constexpr double kRounding = 1e-9;
 
-// Of the spacing: more than rounding of bounds and values, less than anything that shows.
+// In spacings: more than the rounding of bounds and values, less than anything that shows.
 constexpr double kSlack = 1e-6;
 
-// Points asked before that may tell of one on which side it is.
+// How many of the points evaluated last value_near() is given, to tell the side of the next one.
 constexpr std::size_t kRemembered = 32;
 
-// Of the longest edge: further from the surface than this a value need not be known, but that it is
-// so.
+// In longest edges: of points further than this from the surface values need not be exact.
 constexpr double kEnough = 2;
 
 }  // namespace
@@ -117,7 +116,7 @@ void LatticeTree::number_points(const std::vector<std::bitset<kPlaces>>& middles
     const auto middle_key = [&](const Cell& cell, unsigned place) {
         return key_of(point_of(cell.key) + (1 << (cell.size - 1)) * digits(place));
     };
-    // By tasks, sorted, before all are: a point is in 16 cells.
+    // Each task removes its own duplicates first, as a point is a corner of 16 cells.
     const std::uint32_t tasks = (cell_count() + kTask - 1) / kTask;
     std::vector<std::vector<std::uint64_t>> found(tasks);
     parallel_for(tasks, 1U, [&](std::uint32_t task) {
@@ -169,9 +168,10 @@ void LatticeTree::number_points(const std::vector<std::bitset<kPlaces>>& middles
     });
 }
 
-// How the function is where it matters: at points of cells that are not inside. Of one that changes
-// by no more than the distance, points farther from the surface than any of their edges get less
-// than it is there, with its sign: what is left of it at a point before.
+// Evaluates the function at the points of cells that are not wholly inside. If it changes by no
+// more than the distance (is 1-Lipschitz), a point that is farther from the surface than any of its
+// edges is long is not evaluated: it gets a lower bound of the magnitude, with the sign, which
+// follows from the value at the point evaluated last.
 void LatticeTree::sample(const Solid& solid) {
     values_.assign(keys_.size(), -1);
     sizes_.assign(keys_.size(), kKeyBits);

@@ -19,8 +19,7 @@ constexpr double kRounding = 1e-9;
 // worth it.
 constexpr int kSmallestAsked = 2;
 
-// The middles that a cell has in common with each of its neighbors: edges of either that lie in
-// both.
+// For each cell around a cell, and for itself, the middles of edges that lie in both.
 std::array<std::bitset<81>, 81> shared_middles() {
     std::array<std::bitset<81>, 81> shared;
     for (unsigned neighbor = 0; neighbor < 81; ++neighbor) {
@@ -49,8 +48,8 @@ struct LatticeTree::Node {
 void LatticeTree::set_range(const Solid& solid, const SizeField& sizes) {
     const Box4& box = solid.bounds();
     const Eigen::Vector4d middle = lattice_.coordinates((box.low + box.high) / 2);
-    // The farthest of the corners along each axis of the lattice: all coordinates grow with all
-    // of a point.
+    // The corner that is farthest along each axis of the lattice: each of its coordinates grows
+    // with every coordinate of a point.
     const Eigen::Vector4d half_size = lattice_.coordinates((box.high - box.low) / 2);
     const double shortest = lattice_.mean_edge();
     const double radius = (box.high - box.low).norm() / 2;
@@ -171,8 +170,8 @@ void LatticeTree::choose_cells(const Solid& solid, const SizeField& sizes) {
         });
 }
 
-// All that touches a cell that is split is as small as it was, at most: the cells around have
-// parents that are split.
+// 2:1 balance: what touches a cell that is split must not be larger than that cell was, so the
+// parents of all cells around it are split, too.
 void LatticeTree::balance() {
     for (int size = 1; size < largest_; ++size) {
         for (const std::uint64_t key : split_[size]) {
@@ -189,7 +188,7 @@ void LatticeTree::balance() {
     }
 }
 
-// The middles of edges that lie in cells that are split; none in those of the smallest cells.
+// The hanging vertices of a cell: middles of edges that it shares with cells that are split.
 std::bitset<LatticeTree::kPlaces> LatticeTree::middles_of(const Cell& cell) const {
     static const std::array<std::bitset<81>, 81> shared = shared_middles();
     std::bitset<kPlaces> middles;

@@ -164,7 +164,8 @@ Solid polytope_solid(int cells, double radius) {
     for (const Eigen::Vector4d& normal : cell_normals(cells)) {
         pieces.push_back({normal, inradius});
     }
-    // With its cells further out it is a larger one.
+    // Where its function is at most some level is a larger polytope, whose vertices reach further
+    // out than its cells do, by this factor.
     return solid_of(field_of(std::move(pieces)), box_around(Eigen::Vector4d::Constant(radius)),
                     2 * inradius, {radius / inradius, false});
 }

@@ -9,22 +9,22 @@ namespace pent::mesher {
 
 namespace {
 
-// Most shapes have no cell to better, or none that can be, behind one sweep, and nearly all behind
-// five; what is left in others is moved to and fro.
+// After one sweep most shapes have no bad cell left that can be improved, after five nearly all; in
+// the others vertices move to and fro from then on.
 constexpr int kMaxSweeps = 12;
 
-// By this part of its quality the worst cell around a vertex has to gain, or the vertex stays: what
-// is less is not worth the sweeps that follow it. A part of 0.03 leaves worse cells.
+// A vertex moves only if the quality of the worst cell around it grows by this part: less is not
+// worth the sweeps that follow. With 0.03 cells stay worse.
 constexpr double kWorthIt = 1e-3;
 
-// How far to go uphill, in parts of the mean edge at a vertex: half as far each time, until the
-// worst cell is better. With the first of them alone the worst cells of shapes stay a tenth worse,
-// with three of them a few in a hundred more edges stay across ridges; to begin with twice or half
-// as far comes to much the same.
+// Steps along the gradient of the worst cell's quality, in mean edges at the vertex: one after the
+// other, until the worst cell is better. With the first alone the worst cells of shapes stay a
+// tenth worse, with three a few percent more edges stay across ridges; to begin with a step twice
+// or half as long makes little difference.
 constexpr std::array<double, 5> kUphill = {0.4, 0.2, 0.1, 0.05, 0.025};
 
-// Then towards the middle of its neighbors, in parts of the way there. Without that, too, a few in
-// a hundred more edges stay across ridges.
+// Then towards the middle of the neighbors, in parts of the way there. Without these steps, too, a
+// few percent more edges stay across ridges.
 constexpr std::array<double, 2> kInwards = {0.5, 0.2};
 
 class Relaxation {
@@ -139,7 +139,8 @@ private:
 
     SurfaceMesh& surface_;
     double target_;
-    std::vector<std::uint32_t> settled_;  // see SurfaceMesh::settled
+    // Of vertices for which nothing better was found: StarMesh::change() then.
+    std::vector<std::uint32_t> settled_;
 };
 
 }  // namespace

@@ -12,22 +12,22 @@ namespace pent::mesher {
 
 namespace {
 
-// How far from zero a piece may be that a point lies on, in parts of the cells' scale: as near as
-// nearest_common_zero() comes. A hundred times as much or a thousandth of it make the same cells
-// but for a few.
+// A point lies on a piece whose function there is within this of zero, in parts of the cells'
+// scale: as near as nearest_common_zero() comes. A hundred times as much, or a thousandth of it,
+// changes only a few cells.
 constexpr double kOnPiece = 1e-6;
 
 // Pieces that meet at less than this angle (its cosine, 14 degrees) are one smooth surface: an edge
 // across such a ridge is off it by a sixteenth of its length at the most, 1/2 tan(7 degrees).
 constexpr double kSmoothCosine = 0.97;
 
-// Pieces that may have to be tried together for one place. Four fix a point; those that turn out to
-// be in the way there go with them. Six meet at a corner of the 24-cell. With fewer some more edges
-// stay across ridges, with more some less, by a few in a hundred in turned polytopes.
+// How many pieces are tried together for one place. Four fix a point; pieces that turn out to cut
+// off what was found are added to them. Six meet at a corner of the 24-cell. In rotated polytopes a
+// few percent more edges stay across ridges with fewer, and a few percent less with more.
 constexpr int kMaxPieces = 6;
 
-// What a pass mends may leave something else to mend, or undo it: shapes take up to seven, of which
-// those behind the third mend next to nothing.
+// What a pass mends may make a neighbor cross a ridge, or cross it again: shapes take up to seven
+// passes, of which those after the third mend next to nothing.
 constexpr int kMaxPasses = 20;
 
 std::vector<int> common(const std::vector<int>& a, const std::vector<int>& b) {
@@ -146,7 +146,7 @@ private:
         return true;
     }
 
-    // The size of the cells at one of its corners.
+    // The largest of the sizes of the cells at its corners.
     [[nodiscard]] std::uint8_t largest(const Simplex& simplex) const {
         std::uint8_t size = 0;
         for (const std::uint32_t vertex : simplex) {
@@ -155,7 +155,8 @@ private:
         return size;
     }
 
-    // Where all of some pieces meet near a place, with those that turn out to be in the way there.
+    // Where all of some pieces meet near a place. If that is off the surface, as another piece cuts
+    // it off there, the search goes on with that one among them.
     [[nodiscard]] std::optional<Ridge> find_ridge(std::vector<int> pieces,
                                                   const Eigen::Vector4d& near,
                                                   double scale) const {
@@ -190,8 +191,8 @@ private:
         });
     }
 
-    // The ridge that a simplex crosses: of a piece of each of its faces, so that a vertex there
-    // has one in common with each.
+    // The ridge that a simplex crosses: where a piece of each of its faces meet, so that a vertex
+    // there has a piece in common with each of them.
     [[nodiscard]] std::optional<Ridge> ridge_across(const Simplex& simplex) const {
         Eigen::Vector4d middle = Eigen::Vector4d::Zero();
         std::vector<int> pieces;

@@ -14,8 +14,8 @@ using Op = Data::Op;
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-// What a blend adds to the extreme one: as much of `smooth` as they are near each other,
-// quadratic, so that the slope does not jump.
+// How far a blend lies beyond the extreme of two values: the quadratic smooth minimum, which is not
+// 0 where they differ by less than `smooth`, and whose slope does not jump.
 double blend(double a, double b, double smooth) {
     const double overlap = std::max(smooth - std::abs(a - b), 0.0);
     return smooth > 0 ? overlap * overlap / (4 * smooth) : 0;
@@ -162,9 +162,10 @@ Box4 around(const Box4& a, const Box4& b) {
     return {a.low.cwiseMin(b.low), a.high.cwiseMax(b.high)};
 }
 
-// Of a union. A blend adds what has one of the two below a quarter of `smooth`; as they differ by
-// less than `smooth` there, both are below the sum of these, which is of use where small values of
-// one may be anywhere. Where those of both may, it is for stuffing to find that they are.
+// The bounds of a union. A blend is at most smooth / 4 below the lower of two values, so it adds
+// nothing but points where that one is below smooth / 4. As the other differs by less than `smooth`
+// there, it is below 1.25 smooth: the bound to use where small values of the first may be anywhere.
+// Where those of both may, there is none, and LatticeTree throws if the body reaches beyond these.
 Box4 bounds_of_union(const Data& a, const Data& b, double smooth) {
     const auto with_blend = [&](const Data& data, double level) {
         const double factor = std::isinf(data.reach.factor) ? 1 : data.reach.factor;
@@ -178,7 +179,7 @@ Box4 bounds_of_union(const Data& a, const Data& b, double smooth) {
                   with_blend(b, is_anywhere ? 1.25 * smooth : 0));
 }
 
-// As the one that has each of the sides reaches beyond it.
+// Beyond each side of the common box values grow as those of the solid that has this side.
 Reach reach_of_intersection(const Data& a, const Data& b) {
     const double least = std::min(a.reach.factor, b.reach.factor);
     Reach reach{0, false};
@@ -225,8 +226,8 @@ Solid outside_of(const Solid& solid) {
     return Solid(std::make_shared<const Data>(std::move(data)));
 }
 
-// The box around a box that was turned; of nothing if that is. An infinite side makes every side
-// that it has a part in infinite.
+// The box along the axes around a box that was rotated; empty if that one is. An infinite side
+// makes every side infinite that it has a part in.
 Box4 placed_box(const Box4& box,
                 const Eigen::Matrix4d& linear,
                 const Eigen::Vector4d& translation) {

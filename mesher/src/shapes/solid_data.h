@@ -8,12 +8,12 @@
 
 namespace pent::mesher {
 
-/// How far beyond its bounds a solid has values below a level above 0, which a blend may make part
-/// of it: within the bounds grown by `factor` times the level.
+/// Where the function of a solid is below some level above 0, which is what a blend may add to the
+/// body: within the bounds grown by `factor` times the level.
 struct Reach {
     double factor = 1;  ///< Infinite where small values may be anywhere.
     bool is_round =
-        false;  ///< So after any rotation, as a distance is; else corners reach further.
+        false;  ///< Holds after any rotation, as of a distance; else corners reach further.
 };
 
 /// A tree of minima and maxima over fields in places of their own.

@@ -94,7 +94,8 @@ Eigen::Vector4d StarMesh::quality_slope(std::uint32_t cell, std::uint32_t vertex
             squares += (places_[corners[i]] - places_[corners[j]]).squaredNorm();
         }
     }
-    // The volume's part: det(V)^(1/2) as the vertex moves all edges at once.
+    // The mean ratio is det(edges)^(1/2) over the squared edges. Moving the vertex moves all edges
+    // from it at once.
     const Eigen::Vector4d of_volume = -0.5 * edges.transpose().inverse() * Eigen::Vector4d::Ones();
     const Eigen::Vector4d of_edges = 2 * edges.rowwise().sum() / squares;
     return of_volume + of_edges;

@@ -49,7 +49,7 @@ public:
     /// Slope of the logarithm of a cell's mean ratio over the place of one of its corners, 1/m.
     [[nodiscard]] Eigen::Vector4d quality_slope(std::uint32_t cell, std::uint32_t vertex) const;
 
-    /// The least of the cells that splitting a simplex at a place would make.
+    /// The least quality of the cells that splitting a simplex at a place would make.
     [[nodiscard]] double quality_if_split(std::span<const std::uint32_t> simplex,
                                           const Eigen::Vector4d& place) const;
 
@@ -60,7 +60,8 @@ public:
     /// the last.
     std::uint32_t split(std::span<const std::uint32_t> simplex, const Eigen::Vector4d& place);
 
-    /// Another number after every move or split that changed a cell around a vertex.
+    /// A version number of the cells around a vertex: another one after each move or split that
+    /// changed one of them.
     [[nodiscard]] std::uint32_t change(std::uint32_t vertex) const { return changes_[vertex]; }
 
     [[nodiscard]] SimplexMesh<4> mesh() const;

@@ -21,7 +21,7 @@ struct SurfaceMesh {
     std::vector<std::vector<int>> pieces;  ///< One a vertex: ascending; none inside.
     std::vector<std::uint8_t> sizes;       ///< One a vertex: cells there are 2^this times as large.
 
-    /// What bringing a boundary simplex to a ridge would have come to.
+    /// The best that could be had of bringing a boundary simplex to a ridge.
     struct Attempt {
         std::vector<std::uint32_t> changes;  ///< StarMesh::change() of its corners then.
         double best = 0;  ///< Mean ratio of the worst cell, at best; 0 where there is no ridge.

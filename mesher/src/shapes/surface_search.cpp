@@ -15,12 +15,13 @@ constexpr double kDifference = 1e-3;
 
 constexpr int kMaxSteps = 12;
 
-// How near to zero values are taken to, in parts of the scale.
+// Newton's method ends with steps shorter than this, in parts of the scale.
 constexpr double kZero = 1e-10;
 
-// The shortest of the steps that solve the equations best.
+// The minimum-norm solution of least squares, from the normal equations.
 Eigen::Vector4d shortest_solution(const Eigen::Matrix4d& squares, const Eigen::Vector4d& sums) {
-    // Pieces whose normals nearly agree count as one: those of a part of this, squared.
+    // Eigenvalues below this part of the largest one are taken for 0: pieces whose normals nearly
+    // agree count as one.
     constexpr double kAgree = 1e-8;
     const Eigen::SelfAdjointEigenSolver<Eigen::Matrix4d> axes(squares);
     const double largest = axes.eigenvalues()[3];

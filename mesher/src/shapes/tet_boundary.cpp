@@ -25,12 +25,15 @@ constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
 // Tetrahedra that meet at less are one smooth patch: the cosine of 40 degrees.
 constexpr double kSmoothCosine = 0.766;
 
-constexpr double kRounding = 1e-11;  // of coordinates, enough for directions to 1e-5
+// In parts of coordinates: nearer than this a point is taken to be on the boundary. Further away
+// the direction to the nearest point is known to about 1e-5.
+constexpr double kRounding = 1e-11;
 
-// Of lengths: more than rounding, less than anything that shows.
+// In parts of lengths: more than rounding, less than anything that shows.
 constexpr double kSlack = 1e-9;
 
-// Turns in four planes by angles without a meaning.
+// An arbitrary rotation: rays along the last axis are then parallel to no face of the many bodies
+// that have their faces along the axes.
 Matrix4d odd_rotation() {
     Matrix4d rotation = plane_rotation<4>(0, 1, 0.4123);
     rotation = plane_rotation<4>(2, 3, 0.7071) * rotation;
@@ -52,7 +55,8 @@ TetTree turned_tree(const TetSurface& surface, const Matrix4d& rotation) {
     return {points, tetrahedra};
 }
 
-// Joins tetrahedra across triangles of two, where these meet at little of an angle.
+// For each tetrahedron the lowest one of its smooth part: they are joined across triangles that two
+// of them share, where their normals differ little.
 std::vector<std::uint32_t> smooth_parts(const TetTree& tree) {
     struct Side {
         std::array<std::uint32_t, 3> corners{};
@@ -136,7 +140,7 @@ int TetBoundary::crossings(const Vector4d& from, std::uint32_t without) const {
     return sum;
 }
 
-// Whether there is body on one side only, at one of five points of it at least.
+// Whether the body is on one side only of a tetrahedron, at one at least of five points of it.
 bool TetBoundary::separates(std::uint32_t tetrahedron) const {
     const Matrix4d corners = tree_.corners(tetrahedron);
     const Vector4d middle = corners.rowwise().mean();

@@ -24,13 +24,14 @@ constexpr std::uint32_t kLeaf = 4;  // tetrahedra to a leaf
 // taken for its sides alone: rounding of the square would decide what is nearest.
 constexpr double kFlat = 1e-13;
 
-// Nodes of more than this have no disc of use, and finding them would take long.
+// Discs of nodes with more tetrahedra are of no use, and take long to find.
 constexpr std::uint32_t kMaxInDisc = 1024;
 
-// Above this one the plane through a simplex is known to some digits more than its distances are.
+// Above this part of the largest volume, squared, the plane through a simplex is known well enough
+// to tell by it that the simplex is too far away.
 constexpr double kRound = 1e-4;
 
-// Of a length: no less than it.
+// A float that is no less than a length.
 float float_above(double length) {
     return std::nextafter(static_cast<float>(length), std::numeric_limits<float>::infinity());
 }
@@ -40,7 +41,8 @@ struct Foot {
     double distance_squared = std::numeric_limits<double>::infinity();
 };
 
-// The nearest point lies inside, or on a side beyond which the point is.
+// The nearest point is the projection on the simplex's own plane if that lies inside; else it lies
+// on a side that the projection is beyond.
 template <int Corners>
 void find_foot(const Eigen::Matrix<double, 4, Corners>& corners, const Vector4d& p, Foot& best) {
     if constexpr (Corners == 1) {

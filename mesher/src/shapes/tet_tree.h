@@ -25,8 +25,8 @@ struct NearestPoint {
 [[nodiscard]] Eigen::Vector4d nearest_point(const Eigen::Matrix4d& corners,
                                             const Eigen::Vector4d& p);
 
-/// Boxes around boxes around tetrahedra of R^4, each in a patch. Tetrahedra are numbered in the
-/// order of the tree.
+/// A bounding volume hierarchy of tetrahedra of R^4, each in a patch: nodes have a box and a disc.
+/// Tetrahedra are numbered in the order of the tree.
 class TetTree {
 public:
     using Tetrahedron = std::array<std::uint32_t, 4>;
@@ -145,8 +145,9 @@ private:
         float radius = 0;  // rounded up
     };
 
-    // A disc that has a part of the surface in it: what is near a plane and around a center. Where
-    // the surface is smooth it is far thinner than a box, whose sides the surface is not along.
+    // A thick disc around the tetrahedra of a node: within `thickness` of a hyperplane through a
+    // center and within `radius` of the center. Where the surface is smooth it is far thinner than
+    // a box along the axes, along which the surface is not.
     struct Disc {
         Eigen::Vector4f center = Eigen::Vector4f::Zero();
         Eigen::Vector4f normal = Eigen::Vector4f::Zero();  // of length 1, or 0: a ball
@@ -172,8 +173,8 @@ private:
         Eigen::Vector4f high;
     };
 
-    // Not more than it is: of numbers rounded away from each other, and less by what differences
-    // and squares of floats are rounded by.
+    // A lower bound of the squared distance from a point to a box: both are rounded towards each
+    // other, and the result is lowered by what differences and squares of floats are rounded by.
     [[nodiscard]] static double distance_squared(const Node& node, const Place& at) {
         const Eigen::Vector4f apart =
             (node.low - at.high).cwiseMax(at.low - node.high).cwiseMax(0.0F);
@@ -184,7 +185,8 @@ private:
                                             const Eigen::Vector4d& p,
                                             double squared);
     [[nodiscard]] static Eigen::Vector4f float_below(const Eigen::Vector4d& p);
-    // What nodes keep of the patches in them: neighbors in number have different ones of 32.
+    // The bit of a patch in the 32 that a node keeps to tell which patches may be in it: by its
+    // number modulo 32.
     [[nodiscard]] static std::uint32_t bit_of(int patch) {
         return patch == kNoPatch ? 0U : 1U << static_cast<unsigned>(patch) % 32;
     }
