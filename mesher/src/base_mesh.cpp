@@ -46,7 +46,8 @@ Surface oriented_surface(const Repaired& mended, BodyReport& report) {
     return std::move(oriented.surface);
 }
 
-// Triangles of a surface if all were regular with this edge; few are not enough to keep a shape.
+// How many equilateral triangles with this edge a surface would have; at least as many as it takes
+// to keep a shape.
 std::int64_t triangles_for(double surface_area, double edge_length) {
     const double triangle = std::sqrt(3.0) / 4 * edge_length * edge_length;
     return std::llround(std::clamp(surface_area / triangle, 64.0, 1e9));

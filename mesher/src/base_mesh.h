@@ -20,7 +20,7 @@ namespace pent::mesher {
 /// The surface that a file has, scaled, or a sphere.
 [[nodiscard]] SurfaceFile surface_of(const BodyRequest& request);
 
-/// Tetrahedra that are there already, and what they have.
+/// Tetrahedra that need no filling, with their quantities.
 struct BaseMesh {
     SimplexMesh<3> mesh;
     MeshExtras<3> extras;
@@ -29,7 +29,8 @@ struct BaseMesh {
 /// The tetrahedra that a file has, scaled, or a ball. Throws an Error as require_sound_base() does.
 [[nodiscard]] BaseMesh read_base(const BodyRequest& request, BodyReport& report, StageClock& clock);
 
-/// How a surface is filled that is sound.
+/// Fills a surface that is clean and oriented. `filled` becomes the surface that was filled in the
+/// end, which is another one where it is resampled.
 using Fill = std::function<Tetrahedra(const Surface& surface, Surface& filled)>;
 
 /// Mends a surface, and fills it; if a wrap is allowed and filling fails, fills its wrap.
@@ -55,7 +56,7 @@ struct FillEstimate {
 };
 [[nodiscard]] FillEstimate estimate_filling(const Surface& surface, const BodyRequest& request);
 
-/// Tetrahedra over what regular ones of the same edge would number, as TetGen has it.
+/// How many times as many tetrahedra TetGen needs as regular ones with the same edge would be.
 inline constexpr double kCrowding = 1.3;
 
 }  // namespace pent::mesher

@@ -32,7 +32,7 @@ template <int Dim>
                                          BodyReport& report,
                                          StageClock& clock);
 
-/// What a report says of a base: vertices, cells, volume and edge.
+/// Notes vertices, cells, volume and mean edge of a base in a report.
 template <int Dim>
 void describe_base(const SimplexMesh<Dim>& base, BodyReport& report);
 

@@ -13,7 +13,7 @@ namespace pent::mesher {
 
 namespace {
 
-// Notes why not, else.
+// Whether an array becomes a quantity; if not, `left_out` gets the reason.
 bool can_carry(const FileArray& array,
                const std::vector<std::string>& carried,
                std::vector<std::string>& left_out) {

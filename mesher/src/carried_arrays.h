@@ -17,7 +17,7 @@ struct CarriedArrays {
     std::vector<std::string> names;  ///< What each is called there; fibers keep their name.
 };
 
-/// Those of one or three numbers; `left_out` gets what to say of each of the others.
+/// The arrays with one or three components; `left_out` gets a phrase for each of the others.
 [[nodiscard]] CarriedArrays carried_point_arrays(const FileGrid& grid,
                                                  std::vector<std::string>& left_out);
 
@@ -29,8 +29,8 @@ struct CarriedArrays {
                                                 std::string_view regions,
                                                 std::vector<std::string>& left_out);
 
-/// The values of an array at these points or cells, a column each; NaN where it has none.
-/// @param numbers  Theirs in the file.
+/// The values of an array at some points or cells, a column each; NaN where it has none.
+/// @param numbers  By which the file knows these points or cells.
 [[nodiscard]] Eigen::MatrixXd values_at(const FileArray& array,
                                         const std::vector<std::int64_t>& numbers);
 

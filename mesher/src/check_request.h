@@ -9,7 +9,7 @@ namespace pent::mesher {
 /// @param dim  Of the body: 3 or 4.
 void check_request(const BodyRequest& request, int dim);
 
-// What would be left unheeded without a word: each throws an Error if it is asked for.
+// Each of these throws an Error if an option is set that the input would silently ignore.
 
 /// For inputs that are the body already.
 void refuse_extrusion(const BodyRequest& request);

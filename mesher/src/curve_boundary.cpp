@@ -18,13 +18,13 @@ namespace {
 
 using Edge = std::pair<std::uint32_t, std::uint32_t>;
 
-// Of an edge: as far from the surface may ends be, and middles in the end. Boundary vertices of
-// stuffed solids are on it to 1e-6.
+// How far from the surface the ends of an edge may be, and its midpoint after the move, in parts of
+// the edge. Boundary vertices of stuffed solids are on the surface to 1e-6.
 constexpr double kOnSurface = 1e-5;
-constexpr double kFarthest = 0.25;  // at which a middle would fold its cell anyhow
+constexpr double kFarthest = 0.25;  // of the edge: a longer way would fold the cell in any case
 constexpr int kIterations = 20;
 
-// Of the way of a middle to the surface, before it stays on its edge.
+// How often the way of a midpoint is halved before it is left on its edge.
 constexpr int kMaxHalvings = 4;
 
 // All middles of a quadratic mesh by their edges, lower vertex first.
@@ -39,8 +39,8 @@ std::map<Edge, std::uint32_t> middles_of(const SimplexMesh<Dim>& straight) {
 }
 
 // The least Jacobian of a quadratic cell, over Dim!: of its straight simplex, at its nodes and at
-// the points where it is evaluated. With barycentric coordinates l it is that of the simplex with
-// the corners (4 l_a - 1) x_a + 4 sum over b != a of l_b x_ab.
+// its integration points. At barycentric coordinates l it is the volume of the simplex with the
+// corners (4 l_a - 1) x_a + 4 sum over b != a of l_b x_ab: the derivatives of the shape functions.
 template <int Dim>
 double least_jacobian(const Positions<Dim>& positions,
                       const Eigen::Matrix<std::uint32_t, Dim + 1, Dim + 1>& nodes) {
@@ -103,8 +103,8 @@ public:
         }
     }
 
-    // Halves the ways of the middles of folded cells until none is. What has gone half of its way
-    // so often stays on its edge, and a cell without a way to go is as whole as before.
+    // Halves the ways of the midpoints of folded cells until no cell is folded. That ends: after
+    // kMaxHalvings a midpoint is back on its edge, and a cell with all of them there is straight.
     void unfold() {
         std::vector<Eigen::Index> suspects(static_cast<std::size_t>(straight_.cell_count()));
         std::iota(suspects.begin(), suspects.end(), Eigen::Index{0});
@@ -200,11 +200,12 @@ private:
     const SimplexMesh<Dim>& straight_;
     SimplexMesh<Dim> curved_;
     std::map<Edge, std::uint32_t> middles_;
-    Positions<Dim> ways_;  // of all vertices, to the surface; 0 where there is none
+    Positions<Dim> ways_;  // of all vertices, onto the surface; 0 of those that do not move
     std::vector<int> halvings_;
 };
 
-// By Newton's method, the shortest step at a time, to zeros of all of these pieces at once.
+// A point at which all of these pieces are zero, by Newton's method: there are fewer equations than
+// coordinates, and each step is the shortest one that solves them.
 Eigen::Vector4d onto_pieces(const Solid& solid,
                             const std::vector<int>& pieces,
                             const Eigen::Vector4d& from,

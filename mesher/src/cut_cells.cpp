@@ -43,7 +43,8 @@ void for_each_cell(const CellSoup& soup, Visit visit) {
     }
 }
 
-// A quadrilateral with triangles on its other side: first of its vertices must come one of `ends`.
+// A quadrilateral that triangles behind it cut along the diagonal between `ends`. Its own cell cuts
+// it from its first vertex in the order, so that one of `ends` has to come before `others`.
 struct Diagonal {
     std::array<std::uint32_t, 2> ends;
     std::array<std::uint32_t, 2> others;
@@ -97,26 +98,26 @@ std::vector<Diagonal> wanted_diagonals(const Faces& faces) {
     return wanted;
 }
 
-// Vertices in an order in which every diagonal's quadrilateral has one of its ends first; those
-// without a say are left out. A vertex is free to come next as long as no diagonal that has no end
-// yet has it among its others. To take a free one never takes another's freedom, so that the search
-// meets every wish if any order does.
+// An order of vertices in which every diagonal has one of its ends before its others; vertices of
+// no diagonal are left out. A vertex is free to come next unless it is among the others of a
+// diagonal of which no end has come yet. Taking a free vertex never blocks another one, so taking
+// any free one until none is left meets all diagonals if some order does.
 std::vector<std::uint32_t> order_for(const std::vector<Diagonal>& diagonals,
                                      const std::string& name) {
-    struct Say {
-        std::vector<std::size_t> ends_of;
-        int blocked = 0;
+    struct Role {
+        std::vector<std::size_t> end_of;  // diagonals
+        int blocked_by = 0;               // number of diagonals
     };
-    std::map<std::uint32_t, Say> says;
+    std::map<std::uint32_t, Role> roles;
     for (std::size_t d = 0; d < diagonals.size(); ++d) {
         for (int i = 0; i < 2; ++i) {
-            says[diagonals[d].ends[i]].ends_of.push_back(d);
-            ++says[diagonals[d].others[i]].blocked;
+            roles[diagonals[d].ends[i]].end_of.push_back(d);
+            ++roles[diagonals[d].others[i]].blocked_by;
         }
     }
     std::set<std::uint32_t> free;
-    for (const auto& [vertex, say] : says) {
-        if (say.blocked == 0) {
+    for (const auto& [vertex, role] : roles) {
+        if (role.blocked_by == 0) {
             free.insert(vertex);
         }
     }
@@ -126,9 +127,9 @@ std::vector<std::uint32_t> order_for(const std::vector<Diagonal>& diagonals,
         const std::uint32_t vertex = *free.begin();
         free.erase(free.begin());
         order.push_back(vertex);
-        for (const std::size_t d : says[vertex].ends_of) {
+        for (const std::size_t d : roles[vertex].end_of) {
             for (const std::uint32_t other : diagonals[d].others) {
-                if (!is_met[d] && --says[other].blocked == 0) {
+                if (!is_met[d] && --roles[other].blocked_by == 0) {
                     free.insert(other);
                 }
             }

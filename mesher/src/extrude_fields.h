@@ -5,7 +5,7 @@
 
 namespace pent::mesher {
 
-/// What a base has of its vertices and cells as what its extrusion has of them.
+/// The quantities of a base, carried over to its extrusion.
 ///
 /// A number of a vertex is the same at each of its copies, a number of a cell in each cell over it.
 /// Vectors and fibers go the way of their layer: those of a vertex become `linear` times what they

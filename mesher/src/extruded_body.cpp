@@ -41,7 +41,8 @@ void note_heights(const std::vector<Layer<Dim>>& layers, BodyReport& report) {
     }
 }
 
-// All of a base's boundary meets at the point where a body ends.
+// Where a body ends in a point, the link of that point in the boundary is the boundary of the base,
+// which has to be a single sphere.
 template <int Dim>
 void require_manifold(const SimplexMesh<Dim>& mesh, const std::string& name) {
     if (const LinkReport links = check_links(mesh); links.faulty > 0) {
@@ -51,7 +52,7 @@ void require_manifold(const SimplexMesh<Dim>& mesh, const std::string& name) {
     }
 }
 
-// What the file of a body that is kept as base and layers does not say of it.
+// Quantities, which files of base and layers have no place for, go into what is left out.
 template <int Dim>
 void leave_out_fields(const SimplexMesh<Dim>& base,
                       const MeshExtras<Dim>& fields,

@@ -11,7 +11,8 @@ namespace pent::mesher {
 
 namespace {
 
-// Fixes the number of layers first, then seeks the edge length that gives the tetrahedra left.
+// Fixes the number of layers first, then searches the edge length that gives as many tetrahedra as
+// the wanted cells are over that many layers.
 Tetrahedra fill_to_cells(const Surface& surface,
                          const BodyRequest& request,
                          ExtrusionRequest& extrusion,
@@ -23,6 +24,7 @@ Tetrahedra fill_to_cells(const Surface& surface,
         static_cast<double>(request.target_cells) / std::pow(parts_of_edge(request), 4);
     if (has_automatic_layers(extrusion)) {
         const double height = extrusion_length(extrusion, side);
+        // Of edges e there are regular / e^3 tetrahedra and height / (0.7 e) slabs of 4 cells each.
         const double edge_length = std::pow(4 * regular * height / (0.7 * cells), 0.25);
         extrusion.layers = suitable_slabs(extrusion, side, edge_length);
     }

@@ -9,7 +9,8 @@ namespace pent::mesher {
 
 namespace {
 
-// By the numbers of its nodes or elements; of several tuples of one of them the first is found.
+// Sorts tuples by their node or element; stably, so that of several tuples of one node the first in
+// the file is the one that a search finds.
 FileArray in_order(std::string name,
                    std::int64_t components,
                    const std::vector<std::int64_t>& numbers,
@@ -60,8 +61,8 @@ void GmshArrays::finish(FileGrid& grid) {
     grid.left_out = std::move(left_out_);
 }
 
-// Text in files of bytes, too: strings, of which the first is the name, real numbers, of which the
-// first is the time, and whole ones.
+// The head of an array is text in binary files, too: strings, of which the first is the name, real
+// numbers, of which the first is the time, and whole ones.
 GmshArrays::Header GmshArrays::read_header() {
     Header header;
     const std::int64_t strings = text_.count(text_.next_word("a count"), "a number of strings");
@@ -104,7 +105,7 @@ std::string GmshArrays::read_name() {
     return name;
 }
 
-// A new array, or one of which another process has had its part; null for what is left out.
+// A new array, or one of which another partition has come before; null for what is left out.
 GmshArrays::Collected* GmshArrays::place_for(const Header& header, std::vector<Collected>& all) {
     const auto found = std::find_if(all.begin(), all.end(),
                                     [&](const Collected& one) { return one.name == header.name; });

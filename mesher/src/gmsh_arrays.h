@@ -11,8 +11,8 @@
 
 namespace pent::mesher {
 
-/// The values that a file of Gmsh has of its nodes and elements, each array in a section of its
-/// own, in a mesh for many processes one for each of them.
+/// The values that a file of Gmsh has of its nodes and elements: each array in a section of its
+/// own, or, in a partitioned mesh, in one section for each partition.
 class GmshArrays {
 public:
     GmshArrays(TextReader& text, NumberReader& numbers) : text_(text), numbers_(numbers) {}
@@ -45,8 +45,8 @@ private:
         std::string name;
         std::int64_t components = 0;
         Moment moment;
-        std::set<std::int64_t> parts;       // processes whose values are there
-        std::set<Moment> others;            // whose values are not
+        std::set<std::int64_t> parts;       // partitions whose values are there
+        std::set<Moment> others;            // times whose values are left out
         std::vector<std::int64_t> numbers;  // of the node or element of each tuple
         std::vector<double> values;
     };

@@ -32,7 +32,7 @@ struct Header {
     std::int64_t cells = 0;  // for an error, the length of its text
 };
 
-// Nothing has no address that fwrite() and fread() would take.
+// fwrite() and fread() may not be given a null pointer, which data() of an empty array may be.
 template <typename T>
 bool write_all(std::FILE* file, const T* data, Eigen::Index count) {
     return count == 0
@@ -47,7 +47,8 @@ bool read_all(std::FILE* file, T* data, Eigen::Index count) {
                   == static_cast<std::size_t>(count);
 }
 
-// Lowers a limit; the soft one alone, so that its signal tells what happened.
+// Lowers a limit; the soft one alone: a process that passes the hard one is killed without telling
+// which limit it was.
 void lower_limit(int resource, rlim_t value) {
     rlimit limit{};
     ::getrlimit(resource, &limit);

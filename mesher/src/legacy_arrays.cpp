@@ -187,7 +187,8 @@ void LegacyArrays::skip_metadata() {
     }
 }
 
-// Lines of text; or bytes, of which the first two bits say in how many the length stands.
+// Lines of text; or bytes behind their length, whose first two bits say in how many bytes (8, 4, 2
+// or 1) it stands.
 void LegacyArrays::skip_strings(std::int64_t count) {
     for (std::int64_t i = 0; i < count; ++i) {
         if (text_.rest().empty()) {
@@ -206,7 +207,7 @@ void LegacyArrays::skip_strings(std::int64_t count) {
     }
 }
 
-// Colors of a table of their own.
+// A color table, which no array is made of: four numbers a color.
 void LegacyArrays::skip_lookup_table() {
     static_cast<void>(text_.next_word("the name of a table"));
     const std::int64_t size = 4 * line_count();

@@ -37,10 +37,11 @@ Stars stars_of(const Simplices<Dim>& facets, Eigen::Index vertices) {
     return stars;
 }
 
-// The corners of the facets around a vertex without it, Dim - 1 of each, renamed from 0 on.
+// The link of a vertex: of each facet around it the other Dim - 1 corners, as vertices of the link,
+// which are numbered from 0.
 struct Link {
     std::vector<std::uint32_t> corners;
-    std::uint32_t names = 0;
+    std::uint32_t vertices = 0;
 };
 
 template <int Dim>
@@ -55,20 +56,20 @@ Link link_of(const Simplices<Dim>& facets,
             }
         }
     }
-    std::vector<std::uint32_t> names = link.corners;
-    std::sort(names.begin(), names.end());
-    names.erase(std::unique(names.begin(), names.end()), names.end());
+    std::vector<std::uint32_t> used = link.corners;
+    std::sort(used.begin(), used.end());
+    used.erase(std::unique(used.begin(), used.end()), used.end());
     for (std::uint32_t& corner : link.corners) {
-        corner = static_cast<std::uint32_t>(std::lower_bound(names.begin(), names.end(), corner)
-                                            - names.begin());
+        corner = static_cast<std::uint32_t>(std::lower_bound(used.begin(), used.end(), corner)
+                                            - used.begin());
     }
-    link.names = static_cast<std::uint32_t>(names.size());
+    link.vertices = static_cast<std::uint32_t>(used.size());
     return link;
 }
 
 template <int Dim>
 bool is_connected(const Link& link) {
-    UnionFind parts(link.names);
+    UnionFind parts(link.vertices);
     std::uint32_t joins = 0;
     for (std::size_t i = 0; i < link.corners.size(); ++i) {
         const std::uint32_t a = link.corners[i];
@@ -76,12 +77,12 @@ bool is_connected(const Link& link) {
         joins += parts.find(a) != parts.find(b) ? 1 : 0;
         parts.join(a, b);
     }
-    return joins + 1 == link.names;
+    return joins + 1 == link.vertices;
 }
 
-// Whether two triangles share each edge, and those around each corner are one circle, not several
-// that touch there: then the corners of triangles that are one across edges are as many as there
-// are names.
+// Whether each edge is shared by two triangles, and the triangles around each vertex are one cycle,
+// not several that touch there. Corners of triangles at one vertex are joined across the edges that
+// the triangles share, so that each cycle becomes one set: there are as many sets as vertices then.
 bool is_surface(const Link& link) {
     struct Side {
         std::uint32_t low;
@@ -101,9 +102,9 @@ bool is_surface(const Link& link) {
         return a.low != b.low ? a.low < b.low : a.high < b.high;
     });
     UnionFind parts(link.corners.size());
-    auto circles = static_cast<std::uint32_t>(link.corners.size());
+    auto cycles = static_cast<std::uint32_t>(link.corners.size());
     const auto join = [&](std::uint32_t a, std::uint32_t b) {
-        circles -= parts.find(a) != parts.find(b) ? 1 : 0;
+        cycles -= parts.find(a) != parts.find(b) ? 1 : 0;
         parts.join(a, b);
     };
     const auto are_one = [&](std::size_t i, std::size_t j) {
@@ -116,14 +117,14 @@ bool is_surface(const Link& link) {
         join(sides[i].at_low, sides[i + 1].at_low);
         join(sides[i].at_high, sides[i + 1].at_high);
     }
-    return circles == link.names;
+    return cycles == link.vertices;
 }
 
-// The closed link of dimension Dim - 2 is connected and has the sphere's Euler characteristic. Its
-// ridges are shared by two facets each, so that edges number Dim / 2 per triangle.
+// Whether a link, which is closed and of dimension Dim - 2, is connected and has the Euler
+// characteristic of a sphere. As two triangles share each edge there are 3/2 edges to a triangle.
 template <int Dim>
 bool is_sphere(const Link& link) {
-    const auto V = static_cast<std::int64_t>(link.names);
+    const auto V = static_cast<std::int64_t>(link.vertices);
     const auto F = static_cast<std::int64_t>(link.corners.size()) / (Dim - 1);
     if constexpr (Dim == 2) {
         return V == 2;

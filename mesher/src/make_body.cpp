@@ -13,8 +13,8 @@ namespace pent::mesher {
 
 namespace {
 
-// Of a sphere that was made anew the vertices are on the flat triangles it had before, where
-// nothing can be curved.
+// Where the surface of a sphere was resampled or subdivided, vertices are on the flat triangles
+// that it had before and not on the sphere, and edges between them would stay straight.
 void require_vertices_on_sphere(double radius, const SimplexMesh<3>& mesh) {
     constexpr double kRounding = 1e-9;
     const Simplices<3> boundary = match_facets<3>(mesh.cells, mesh.vertex_count()).boundary;

@@ -65,9 +65,9 @@ Matrix<Dim> edges_at_first(const Eigen::Matrix<double, Dim, Dim + 1>& corners) {
     return corners.template rightCols<Dim>().colwise() - corners.col(0);
 }
 
-// Of all edges, from those at the first corner: the sum over all pairs of points of their squared
-// distances is their number times that of the squares, less the square of the sum. At least the sum
-// of the squares is left, so nothing cancels.
+// Of all edges, from those at the first corner, p_0 = 0: the sum of |p_i - p_j|^2 over all pairs of
+// Dim + 1 points is (Dim + 1) times the sum of |p_i|^2, less the square of the sum of p_i. At least
+// the sum of |p_i|^2 is left, so nothing cancels.
 template <int Dim>
 double mean_squared_edge(const Matrix<Dim>& Dm) {
     const double sum = (Dim + 1) * Dm.squaredNorm() - Dm.rowwise().sum().squaredNorm();

@@ -175,7 +175,7 @@ private:
         if (size != 8) {
             text_.fail("numbers of " + counted(size, "byte", "bytes") + "; expected 8");
         }
-        // A one, by which the order of bytes shows.
+        // The number 1, which tells the order of bytes.
         constexpr std::int64_t kSwapped = 1 << 24;
         numbers_.set_encoding(Encoding::LittleEndian);
         const std::int64_t one = number();
@@ -186,7 +186,7 @@ private:
         }
     }
 
-    // Some sections of a binary file are no lines.
+    // Searches for the end and not by lines, which some sections of a binary file do not have.
     void skip_section(const std::string& end) {
         const std::size_t at = text_.rest().find(end);
         if (at == std::string_view::npos) {
@@ -208,7 +208,7 @@ private:
     std::int64_t long_count() { return numbers_.count<std::uint64_t>("a count"); }
 
     // The physical groups of the volumes: in version 4 elements name their entity alone, which in a
-    // mesh for many processes is a part of a volume.
+    // partitioned mesh is a part of a volume.
     void read_entities(const std::string& section) {
         constexpr std::size_t kVolume = 3;
         const bool has_parts = section == "$PartitionedEntities";

@@ -32,8 +32,8 @@ std::int64_t optional_count(TextReader& text, std::string_view expected) {
     return word.empty() ? 0 : text.count(word, expected);
 }
 
-// The attributes of a point or a tetrahedron, from the `first` one on. The first line begins the
-// arrays: it has as many words, so no count is believed.
+// The attributes of a point or a tetrahedron, from the `first` one on. Arrays are made as the words
+// of the first line are read, so that a count that is damaged takes no memory.
 void read_attributes(TextReader& text,
                      const std::string& name,
                      std::int64_t first,

@@ -64,7 +64,7 @@ private:
         return *found;
     }
 
-    // Everything counted takes a byte or more, but for what zlib makes small.
+    // Not bounded by the size of the file: what zlib compresses may take less than a byte each.
     std::int64_t count_of(const XmlElement& piece, std::string_view key) {
         constexpr std::int64_t kMaxCount = std::int64_t{1} << 32;
         const std::string_view word = piece.attribute(key);

@@ -36,7 +36,9 @@ Key key_of(const Simplices<3>& triangles, Eigen::Index t) {
     return key;
 }
 
-// Turns triangles to agree where they can, and parts them where they cannot.
+// A manifold mesh: triangles are turned over to agree with their neighbors, and the surface is cut
+// open along edges where more than two meet or no orientation agrees; then borders that coincide
+// are stitched where that leaves it a manifold.
 CgalMesh manifold_of(const Surface& surface) {
     std::vector<Kernel::Point_3> points;
     std::vector<std::vector<std::size_t>> polygons;

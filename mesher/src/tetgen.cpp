@@ -25,7 +25,8 @@ struct Answer {
     std::vector<double> regions;  // one a tet
 };
 
-// p: a surface; A: number the regions; Q: quiet; see TetGen's manual.
+// TetGen's switches, see its manual. p: fill a surface; q: bound circumradius over shortest edge;
+// Y: keep the surface's triangles; a: bound the volume of tetrahedra.
 std::string switches(const TetrahedraOptions& options) {
     std::string text = "pq" + formatted("%.6g", options.radius_edge_ratio);
     if (options.keep_surface) {
@@ -134,9 +135,9 @@ std::vector<Facet> sorted_facets(const Simplices<4>& tets) {
     return facets;
 }
 
-// TetGen fills cavities, too, as regions of their own. Nothing but the surface divides regions from
-// one another, and all of them from what is outside: behind each of its sides is the other of body
-// and no body.
+// TetGen fills cavities, too, as regions of their own. Only the surface divides regions from one
+// another and from the outside, and whoever crosses it enters the body or leaves it: regions at the
+// outside are in the body, their neighbors are not, the neighbors of these are again, and so on.
 std::map<double, bool> regions_inside(const Answer& answer) {
     const std::set<double> regions(answer.regions.begin(), answer.regions.end());
     if (regions.size() == 1) {
@@ -177,28 +178,28 @@ std::map<double, bool> regions_inside(const Answer& answer) {
 SimplexMesh<3> body(const Answer& answer) {
     const std::map<double, bool> inside = regions_inside(answer);
     std::vector<Eigen::Index> kept;
-    std::vector<std::uint32_t> name(answer.points.cols(), 0);
+    std::vector<std::uint32_t> vertex_of(answer.points.cols(), 0);  // at first whether it has one
     for (Eigen::Index t = 0; t < answer.tets.cols(); ++t) {
         if (inside.at(answer.regions[t])) {
             kept.push_back(t);
             for (int i = 0; i < 4; ++i) {
-                name[answer.tets(i, t)] = 1;
+                vertex_of[answer.tets(i, t)] = 1;
             }
         }
     }
     SimplexMesh<3> mesh;
     std::uint32_t points = 0;
-    for (std::uint32_t& entry : name) {
+    for (std::uint32_t& entry : vertex_of) {
         points += entry;
-        entry = points - entry;  // how many kept ones come before
+        entry = points - entry;  // how many points that are kept come before
     }
     mesh.positions.resize(3, points);
     mesh.cells.resize(4, static_cast<Eigen::Index>(kept.size()));
     for (std::size_t i = 0; i < kept.size(); ++i) {
         for (int corner = 0; corner < 4; ++corner) {
             const std::uint32_t old = answer.tets(corner, kept[i]);
-            mesh.cells(corner, static_cast<Eigen::Index>(i)) = name[old];
-            mesh.positions.col(name[old]) = answer.points.col(old);
+            mesh.cells(corner, static_cast<Eigen::Index>(i)) = vertex_of[old];
+            mesh.positions.col(vertex_of[old]) = answer.points.col(old);
         }
         if (volume(answer, kept[i]) < 0) {
             std::swap(mesh.cells(2, static_cast<Eigen::Index>(i)),
@@ -217,6 +218,7 @@ Tetrahedra fill_with_tetgen(const Surface& surface, const TetrahedraOptions& opt
     const File reply = temporary_file();
     write_request(request.get(), surface);
     const std::string wanted = switches(options);
+    // A: number the regions; Q: quiet; S: bound the number of added points.
     const ProcessResult result = run_process(
         worker,
         {wanted + "AQS" + std::to_string(options.max_added_points),

@@ -86,8 +86,8 @@ std::string plain_bytes(const Source& source,
 }
 
 // Blocks of equal size, but for the last one: their number, the size of one, that of the last where
-// it is smaller, the compressed sizes; then the blocks. In base64 the numbers have a padding of
-// their own, which a decoder of texts one behind the other passes.
+// it is smaller, the compressed sizes; then the blocks. In base64 these numbers are a text of their
+// own, with padding, in front of that of the blocks: from_base64_prefix() reads on behind it.
 std::string inflated_bytes(const Source& source,
                            const XmlElement& array,
                            const VtkEncoding& encoding) {
