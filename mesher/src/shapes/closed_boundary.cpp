@@ -41,8 +41,8 @@ bool sort_corners(std::array<std::uint32_t, Corners>& corners) {
     return is_odd;
 }
 
-// A triangle of a tetrahedron: its corners increasing, and the side (1 or -1) from which the
-// tetrahedron sees it.
+// A triangle of a tetrahedron: its corners increasing, and the sign of the orientation that the
+// tetrahedron induces on it.
 struct Side {
     Triangle corners{};
     std::uint32_t tetrahedron = 0;
