@@ -73,7 +73,7 @@ void check_keyword(TextReader& text) {
     }
 }
 
-// The four triangles of a tetrahedron, numbered by their corners.
+// The triangles of all tetrahedra, each once: numbered when they first appear.
 class TriangleList {
 public:
     std::uint32_t number_of(Triangle corners) {
@@ -92,9 +92,10 @@ private:
     std::vector<Triangle> list_;
 };
 
-// Readers that look at orientation (godot-4d) take a cell's normal from its first two faces: the
-// edge that both have, from the third corner of the first, then the third of the second. So that it
-// points outward that order is an odd one of our own.
+// The faces of a tetrahedron in an order that gives readers which look at orientation (godot-4d) an
+// outward normal: they take it from the corners of the first two faces, first the third corner of
+// the first face, then the edge that both share, then the third corner of the second, which has to
+// be an odd permutation of ours.
 std::array<Triangle, 4> ordered_faces(const Eigen::Vector<std::uint32_t, 4>& outward) {
     std::uint32_t p = outward[0];
     std::uint32_t q = outward[1];

@@ -34,8 +34,8 @@ struct IsBefore {
     }
 };
 
-// Labels of the boundary: those that facets of the body have, 0 being none; else, where it was
-// extruded, by whether they are in its first layer, its last, or between.
+// Labels of the boundary's facets: those that the body has for them, unless 0; else, where it was
+// extruded, by whether a facet is in the first layer, in the last, or between.
 class BoundaryLabels {
 public:
     BoundaryLabels(const Body& body, const WriteOptions& options) : mesh_(body.mesh) {

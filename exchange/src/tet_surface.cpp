@@ -48,7 +48,7 @@ bool has_corner_twice(const Eigen::Vector<std::uint32_t, 4>& corners) {
     return false;
 }
 
-// The points that some tetrahedra have, in their order, and the tetrahedra on these.
+// The points that some tetrahedra use, in their order, and the tetrahedra by indices of these.
 struct UsedPoints {
     std::vector<std::uint32_t> points;
     Simplices<4> tetrahedra;
@@ -56,23 +56,23 @@ struct UsedPoints {
 
 UsedPoints used_points_of(const Simplices<4>& tetrahedra, Eigen::Index points) {
     constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
-    std::vector<std::uint32_t> name(static_cast<std::size_t>(points), kNone);
+    std::vector<std::uint32_t> new_index(static_cast<std::size_t>(points), kNone);
     for (const std::uint32_t corner : tetrahedra.reshaped()) {
-        name[corner] = 0;
+        new_index[corner] = 0;
     }
     UsedPoints used;
-    for (std::size_t point = 0; point < name.size(); ++point) {
-        if (name[point] != kNone) {
-            name[point] = static_cast<std::uint32_t>(used.points.size());
+    for (std::size_t point = 0; point < new_index.size(); ++point) {
+        if (new_index[point] != kNone) {
+            new_index[point] = static_cast<std::uint32_t>(used.points.size());
             used.points.push_back(static_cast<std::uint32_t>(point));
         }
     }
-    used.tetrahedra = tetrahedra.unaryExpr([&](std::uint32_t corner) { return name[corner]; });
+    used.tetrahedra = tetrahedra.unaryExpr([&](std::uint32_t corner) { return new_index[corner]; });
     return used;
 }
 
-// A triangle of a tetrahedron: its corners increasing, and whether that is the side from which the
-// tetrahedron sees it.
+// A triangle of a tetrahedron: its corners increasing, and whether the orientation that the
+// tetrahedron induces on it is the opposite of that order.
 struct Side {
     std::array<std::uint32_t, 3> corners{};
     std::uint32_t tetrahedron = 0;
@@ -93,7 +93,7 @@ std::vector<Side> sides_of(const Simplices<4>& tetrahedra) {
                     side.corners[static_cast<std::size_t>(at++)] = tetrahedra(corner, t);
                 }
             }
-            // Sorting by neighbors turns the triangle over with each exchange.
+            // Each exchange of neighbors turns the triangle over.
             auto& c = side.corners;
             for (const std::size_t low : {0U, 1U, 0U}) {
                 if (c[low] > c[low + 1]) {
@@ -187,12 +187,13 @@ private:
     bool is_orientable_ = true;
 };
 
-// The half-spaces that a point sees the whole surface from, each behind one tetrahedron.
+// The half-spaces behind the tetrahedra: a point in all of them (in the kernel of the body) sees
+// the whole surface from inside.
 struct HalfSpaces {
     Positions<4> normals;  // outward, of unit length
     Eigen::VectorXd offsets;
 
-    // How far inside the one it is least inside of.
+    // How deep a point is in the half-space in which it is least deep; negative outside of one.
     [[nodiscard]] double depth(const Vector4d& x, Eigen::Index& nearest) const {
         return (offsets - normals.transpose() * x).minCoeff(&nearest);
     }

@@ -13,8 +13,8 @@
 
 namespace pent::exchange {
 
-/// A body with what a .pent file says of it beside the mesh. Of that, other formats hold nothing
-/// but MFEM the labels of the boundary, of 1 to 65535 and not all 1.
+/// A body with what a .pent file says of it beside the mesh. Of these extras other formats hold
+/// nothing, but for MFEM: labels of the boundary from 1 to 65535, if not all are 1.
 struct Body {
     SimplexMesh<4> mesh;
     MeshExtras<4> extras = {};
@@ -36,8 +36,8 @@ struct WriteOptions {
     /// extruded, 1 bottom, 2 lateral, 3 top; or as MFEM numbers those of its own, behind the labels
     /// of the cells.
     bool has_mfem_attributes = false;
-    /// A blend shape each, of G4MF, the one format that has any: from the points that are written
-    /// to where those of the content are in the frame.
+    /// Each becomes a blend shape of G4MF, the one format that has any: the displacements from the
+    /// points that are written to where those of the content are in the frame.
     std::vector<FramePoints> frames = {};
 };
 
@@ -65,8 +65,8 @@ struct Format {
 [[nodiscard]] std::string left_out(const Body& body, const Format& format);
 
 struct ReadOptions {
-    /// The tetrahedra of a boundary that is not closed as it stands meet by the places of their
-    /// points, see weld(); else all points and tetrahedra are those of the file.
+    /// Merges points at the same place, see weld(), if the boundary is not closed without that. If
+    /// false all points and tetrahedra stay those of the file.
     bool is_welded = true;
 };
 
