@@ -23,7 +23,7 @@ struct Run {
     std::size_t bytes = 0;
 };
 
-// Columns that lie side by side both in the row and in memory become one run.
+// Columns that lie side by side both in a row of the file and in memory become one run.
 void add_run(std::vector<Run>& runs, const Column& column, std::size_t in_row) {
     const std::size_t bytes = size_of(column.type);
     if (!runs.empty()) {
@@ -121,7 +121,6 @@ std::size_t least_row_bytes(const PlyElement& element, Encoding encoding) {
     return bytes;
 }
 
-// A file has one line for each row of an element without properties, too.
 std::string row_name(const PlyElement& element, std::uint64_t row) {
     return element.name + " " + std::to_string(row);
 }

@@ -28,7 +28,7 @@ void encode_rows(std::string& body,
                  const std::vector<Column>& columns,
                  std::uint64_t rows);
 
-/// Throws an Error unless the elements of a header fit so many bytes behind it.
+/// Throws an Error unless a body of so many bytes can have the rows that the header announces.
 void check_counts(const Header& header, std::uint64_t bytes, const std::filesystem::path& path);
 
 /// Throws an Error unless the body has the checksum that its header says.
@@ -46,7 +46,8 @@ public:
     /// Reads the next element. Properties without a column are skipped; columns without a property
     /// are left as they are.
     ///
-    /// @param in_front  Rows of the element that are not here, which messages count.
+    /// @param in_front  How many rows of the element lie in front of these in the file: messages
+    ///                  number rows as the file does.
     void read(const std::vector<Column>& columns, std::uint64_t in_front = 0);
 
     /// Skips the elements that are left and checks that nothing follows; the checksum of ascii.
@@ -77,8 +78,8 @@ private:
 
 /// The same of a vector: an Error if it has some of its components and not all.
 ///
-/// @param prefix  Of their names, behind which the axis stands.
-/// @param what    It is, for messages.
+/// @param prefix  What their names have in front of the axis.
+/// @param what    What messages call it, as in "velocity".
 [[nodiscard]] bool has_vector(const PlyElement& element,
                               int dimension,
                               std::string_view prefix,
@@ -101,10 +102,10 @@ std::uint32_t write_file(const std::filesystem::path& path,
 /// Prefixes of the vectors of vertices that are no fields: positions, velocities, contact forces.
 inline const std::vector<std::string_view> kVertexVectors = {"", "v", "f"};
 
-/// Every property of doubles that is none of those known, with no values yet: a vector where all
-/// axes follow one another, else a number.
+/// A quantity, with room for its values, for every property of type double but those of known
+/// vectors: a vector where the components of all axes follow one another, else a number.
 ///
-/// @param prefixes  Of known vectors: "" is x, y and so on.
+/// @param prefixes  Of the known vectors: "" is for x, y and so on.
 [[nodiscard]] std::vector<VertexField> fields_of(const PlyElement& element,
                                                  int dimension,
                                                  const std::vector<std::string_view>& prefixes);
@@ -112,7 +113,7 @@ inline const std::vector<std::string_view> kVertexVectors = {"", "v", "f"};
 /// Throws an Error unless fields have finite values, one or `dimension` for each of `count`.
 ///
 /// @param of     What they are quantities of: "vertex".
-/// @param first  How many lie in front of these, in messages.
+/// @param first  The number of the first one, in messages.
 void check_fields(const std::vector<VertexField>& fields,
                   int dimension,
                   Eigen::Index count,
@@ -124,7 +125,7 @@ void check_fields(const std::vector<VertexField>& fields,
 [[nodiscard]] std::set<std::string> axis_names(int dimension,
                                                const std::vector<std::string_view>& prefixes);
 
-/// Throws an Error unless fields are read back as what they are, by names of their own.
+/// Throws an Error unless the names of fields are such that a file is read with the same fields.
 ///
 /// @param reserved  Names of properties with another meaning.
 /// @param of        What they are quantities of: "vertex".

@@ -17,7 +17,8 @@ inline constexpr const char* kBoundary = "boundary";
 /// Prefixes of the vectors of cells that are no fields.
 inline const std::vector<std::string_view> kCellVectors = {"fiber_"};
 
-/// What a file has of vertices beside the mesh, and behind what it has of that.
+/// The columns that a file has for the extras of vertices; and all columns of vertices, those of
+/// the mesh first.
 template <int Dim>
 [[nodiscard]] std::vector<Column> vertex_columns(const MeshExtras<Dim>& extras);
 template <int Dim>
@@ -31,14 +32,14 @@ template <int Dim>
 [[nodiscard]] std::vector<Column> cell_columns(const SimplexMesh<Dim>& mesh,
                                                const MeshExtras<Dim>& extras);
 
-/// What it has of the facets with labels.
+/// The columns of the facets with labels.
 template <int Dim>
 [[nodiscard]] std::vector<Column> boundary_columns(const MeshExtras<Dim>& extras);
 
-/// Those facets, if a file has an element with what they need; or null.
+/// The element of these facets; null if the file has none, or one with lists.
 [[nodiscard]] const PlyElement* boundary_of(const Header& header);
 
-/// Room for what a file has beside the mesh. Throws an Error for properties of other types.
+/// Extras with room for what a file has of them. Throws an Error for properties of wrong types.
 template <int Dim>
 [[nodiscard]] MeshExtras<Dim> sized_extras(const Header& header, const std::filesystem::path& path);
 

@@ -25,7 +25,7 @@ constexpr const char* kReversed = "reversed";
 constexpr const char* kRegion = "region";
 constexpr std::string_view kAxes = "xyzw";
 
-// What a file has beside base and layers themselves.
+// Columns of a file that are no members of base and layers.
 struct Codes {
     std::vector<std::uint8_t> orders;    // of the corners of each base cell: see orders_of()
     std::vector<std::uint8_t> reversed;  // of each layer: whether the slab above it takes them
@@ -149,7 +149,7 @@ OrderedCells<Dim - 1> order_corners(const Simplices<Dim>& cells,
     return ordered;
 }
 
-// Prisms of neighbors are cut alike where each edge goes one way.
+// Neighbors cut the prisms between them alike if every edge goes the same way in all cells.
 template <int Dim>
 void check_edges(const OrderedCells<Dim - 1>& ordered, const std::string& path) {
     constexpr int kHalf = 32;
@@ -301,7 +301,7 @@ Extrusion<Dim> parse_extrusion(const Header& header,
     if (has_property(header.elements[1], kRegion, PlyType::Ushort, path)) {
         base.regions.resize(cells);
     }
-    // A spare one, to point at, where there are none.
+    // One entry more than there are, so that columns have something to point at if there are none.
     Codes codes{std::vector<std::uint8_t>(cells + 1), std::vector<std::uint8_t>(layers + 1)};
     extrusion.layers.resize(layers + 1);
     const std::vector<Column> of_cells = base_columns<Dim>(base, codes);

@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::array<std::string_view, 4> kFieldAxes = {"_x", "_y", "_z", "_w"};
 
-// Whether a header can have it: one word of a line.
+// Whether a name can stand in a header: one word, short enough for a line.
 bool is_word(const std::string& name) {
     constexpr std::size_t kLongest = kLongestLine - std::string_view("property double _x").size();
     return !name.empty() && name.size() <= kLongest

@@ -8,7 +8,7 @@
 
 namespace pent {
 
-/// The bytes of a whole file in memory.
+/// The bytes of a file, or of a part of it, in memory.
 struct InputFile {
     std::unique_ptr<char[]> data;
     std::size_t bytes = 0;

@@ -11,7 +11,7 @@
 
 namespace pent {
 
-/// Of cells that lie in one quadratic cell.
+/// The property of cells that has SimplexMesh::parents.
 inline constexpr const char* kParent = "parent";
 
 template <typename Value>
@@ -22,15 +22,15 @@ template <typename Value>
     return {std::move(name), type, reinterpret_cast<char*>(data), sizeof(Value)};
 }
 
-/// What a file has of the vertices of a mesh.
+/// The columns of a file for the vertices of a mesh.
 template <int Dim>
 [[nodiscard]] std::vector<Column> vertex_columns(const SimplexMesh<Dim>& mesh);
 
-/// What it has of the cells.
+/// The same for its cells.
 template <int Dim>
 [[nodiscard]] std::vector<Column> cell_columns(const SimplexMesh<Dim>& mesh);
 
-/// Makes room for what an element of a file has of vertices.
+/// Makes room in a mesh for what the element of vertices in a file has.
 template <int Dim>
 void size_vertices(const PlyElement& vertex,
                    const std::filesystem::path& path,

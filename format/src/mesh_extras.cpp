@@ -25,7 +25,7 @@ Eigen::MatrixXd cut(const Eigen::MatrixXd& values, Eigen::Index first, Eigen::In
     return values.middleCols(first, last - first);
 }
 
-// No place of a row is known in text.
+// Where a row begins is not known in text, so all are read.
 template <int Dim>
 MeshExtras<Dim> read_text_extras(const std::filesystem::path& path,
                                  const Header& header,

@@ -27,7 +27,8 @@ bool has_any(const SlabWriters* writers, std::size_t own) {
     return place_slab(writers, own).all > 0;
 }
 
-// A mesh with one vertex and one cell that has what the slabs together have.
+// A mesh of one vertex and one cell that has the same optional arrays as the slabs together: what
+// the columns of the file follow from, on a process whose own slab may be empty, too.
 template <int Dim>
 SimplexMesh<Dim> pattern_of(const SimplexMesh<Dim>& slab, const SlabWriters* writers) {
     SimplexMesh<Dim> pattern;
@@ -81,11 +82,12 @@ std::vector<Value> cut(const std::vector<Value>& values, Eigen::Index first, Eig
                           : std::vector<Value>(values.begin() + first, values.begin() + last);
 }
 
-// Lines of text: where every so many of them begin, since each is as long as its numbers.
+// Lines of text differ in length: of every so many of them one is known where it begins, and the
+// others are found by reading on from there.
 constexpr std::uint64_t kLines = 1024;
 
-// Goes through a text file behind its header. Calls visit(line, at) for every kLines-th line that
-// ends, with how many are in front of it and where it begins, and at the end; returns both.
+// Goes through a text file behind its header. Calls visit(line, at) for every line that ends, with
+// its number from 0 and the offset at which it begins; returns both for what follows the last one.
 template <typename Visit>
 std::pair<std::uint64_t, std::uint64_t> for_each_line(const std::filesystem::path& path,
                                                       std::uint64_t begin,
@@ -211,7 +213,8 @@ struct MeshSource<Dim>::Content {
     [[nodiscard]] RowBytes cell_bytes(std::uint64_t first, std::uint64_t last) const;
 };
 
-// Lines that are missing, but for those of other elements, are missed where they are read.
+// Throws an Error for missing lines of elements that nobody will read, and for bytes behind the
+// last element. Missing lines of vertices and cells are noticed when these are read.
 template <int Dim>
 void MeshSource<Dim>::Content::find_lines() {
     const std::uint64_t vertices = header.elements[0].count;

@@ -18,7 +18,7 @@ thread_local const Workers* current_workers = nullptr;
 thread_local bool is_in_task = false;
 // NOLINTEND(cppcoreguidelines-avoid-non-const-global-variables)
 
-// Own task systems differ in what they make of others.
+// Checked here, as implementations of own_task_system() differ in what they make of other numbers.
 TaskSystem own_checked(int threads) {
     if (threads < 1) {
         throw Error(std::to_string(threads) + " threads, expected at least 1");
@@ -38,8 +38,8 @@ TaskSystem checked(TaskSystem tasks) {
     return tasks;
 }
 
-// Of what tasks throw, keeps what the lowest one did. Every task below it runs: it is the same one,
-// whatever the order.
+// Keeps the exception of the lowest task that threw one. Tasks above that one are skipped, all
+// below it run, so that it is the same one whatever the order.
 class FirstFailure {
 public:
     template <typename Work>

@@ -32,7 +32,8 @@ struct Decimal {
     int exponent = 0;
 };
 
-// The number of count digits that is nearest to the value; of a locale the point alone is of it.
+// The decimal of `count` digits that is nearest to the value. Nothing but digits is taken from what
+// printf() writes, as the point in it is that of the locale.
 Decimal rounded(double value, int count) {
     char text[40];
     std::snprintf(text, sizeof text, "%.*e", count - 1, value);
@@ -53,7 +54,7 @@ bool reads_back(const Decimal& decimal, Real value) {
     return value_of<Real>((decimal.digits + "e" + std::to_string(exponent)).c_str()) == value;
 }
 
-// The same with one more in the last digit.
+// The next decimal of as many digits.
 Decimal next(Decimal decimal) {
     auto digit = decimal.digits.rbegin();
     while (digit != decimal.digits.rend() && *digit == '9') {
@@ -72,8 +73,9 @@ Decimal next(Decimal decimal) {
 // The fewest digits that read back as the value, and of those the nearest.
 template <typename Real>
 Decimal shortest(Real value) {
-    // With so many digits every decimal number survives a normal one; those of less precision need
-    // fewer.
+    // A decimal of at most so many digits survives being read into a normal number, so a shorter one
+    // comes out here with zeros behind it, which are cut off. Subnormal numbers have less precision
+    // and are tried from one digit on.
     constexpr int kSafe = std::numeric_limits<Real>::digits10;
     const int least = value < std::numeric_limits<Real>::min() ? 1 : kSafe;
     for (int count = least;; ++count) {

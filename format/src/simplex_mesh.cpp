@@ -26,7 +26,7 @@ constexpr double factorial(int n) {
     return n < 2 ? 1 : n * factorial(n - 1);
 }
 
-// @param numbers  What elements are called; empty if as they are counted.
+// @param numbers  The number of each element in messages; empty if that is its index.
 std::string where(std::string_view name,
                   std::string_view element,
                   std::span<const std::uint32_t> numbers,
@@ -37,8 +37,8 @@ std::string where(std::string_view name,
     return std::string(name) + ": " + std::string(element) + " " + std::to_string(number) + ": ";
 }
 
-// @param what    A column is of, as in "vertex".
-// @param prefix  Of the names of its entries.
+// @param what    What a column belongs to, as in "vertex".
+// @param prefix  What names of its entries have in front of the axis.
 template <int Dim>
 void validate_finite(const Positions<Dim>& vectors,
                      std::string_view what,

@@ -6,7 +6,7 @@
 
 namespace pent {
 
-/// Checksum of the slabs of all, one behind the other, from that of the own one.
+/// Checksum of the slabs of all writers, one behind the other; each gives that of its own.
 ///
 /// @param writers  Null for one alone.
 /// @param bytes    Of the own one.

@@ -18,7 +18,7 @@ using File = std::unique_ptr<std::FILE, CloseFile>;
 /// the name of what it is for, if that has one.
 [[nodiscard]] File temporary_file(const std::string& owner = "");
 
-/// What a program starts with. Descriptors of files stay those of the caller, too; -1 is /dev/null.
+/// What a program starts with. File descriptors stay open in the caller, too; -1 is /dev/null.
 struct ChildOptions {
     int input = -1;
     int output = -1;

@@ -4,10 +4,10 @@
 
 namespace pent {
 
-/// Calls visit(first, count) for every longest run of neighbors that are the same, in their order.
+/// Calls visit(first, count) for every maximal run of equal neighbors, in their order.
 ///
-/// @param sorted  Random access by [] and size(); what is the same stands together.
-/// @param same    bool same(a, b) of two elements.
+/// @param sorted  Has [] and size(); equal elements stand together.
+/// @param same    bool same(a, b): whether two elements are equal.
 template <typename Sorted, typename Same, typename Visit>
 void for_each_equal_run(const Sorted& sorted, const Same& same, const Visit& visit) {
     for (std::size_t first = 0; first < sorted.size();) {

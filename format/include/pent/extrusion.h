@@ -65,12 +65,11 @@ template <int Dim>
                                        const std::vector<Layer<Dim>>& layers,
                                        const ExtrudeOptions& options = {});
 
-/// The vertices alone of what extrude() makes: where a mesh is made in parts.
+/// The vertices alone of what extrude() makes, for a mesh whose cells are made in parts.
 template <int Dim>
 [[nodiscard]] SimplexMesh<Dim> extrude_vertices(const Extrusion<Dim>& extrusion);
 
-/// The cells alone, with their regions, over some base cells: as many over each, as extrude() has
-/// them.
+/// The cells alone that extrude() makes over some of the base cells, with their regions.
 template <int Dim>
 [[nodiscard]] SimplexMesh<Dim> extrude_cells(const Extrusion<Dim>& extrusion,
                                              std::span<const std::uint32_t> base_cells);

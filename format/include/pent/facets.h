@@ -24,12 +24,12 @@ struct FacetMatch {
     [[nodiscard]] bool is_conforming() const { return one_sided == 0 && overfull == 0; }
 };
 
-/// Finds the boundary and checks that neighbors agree, by hashing facets in groups of one
-/// lowest corner: linear time, and 8 bytes a cell beside the boundary itself.
+/// Finds the boundary and checks that neighbors agree. Facets are hashed in groups that have the
+/// same lowest corner: linear time, and 8 bytes a cell beside the boundary itself.
 ///
 /// @param vertices    Number of vertices; indices are below it, not checked.
-/// @param is_counted  Of the lowest corner of a facet, whether the facet counts; empty for all.
-///                    Where only a part of the cells is here, all that touch these vertices are.
+/// @param is_counted  Whether facets with this lowest corner count; empty if all do. For meshes of
+///                    which only some cells are here: those that touch the vertices that count.
 template <int Dim>
 [[nodiscard]] FacetMatch<Dim> match_facets(
     const Simplices<Dim + 1>& cells,

@@ -9,11 +9,12 @@
 
 namespace pent {
 
-/// What a file says beside its mesh of the rows of a slab, and of facets with the last cell: all of
-/// them, which are fewer than cells, or none. Nothing, where the file has base and layers.
+/// The extras of the rows of a slab. Labeled facets, which are fewer than cells, are not divided:
+/// the slab with the last cell has all of them. Nothing where the file has base and layers.
 ///
-/// Reads these rows alone, but all of text. Not checked but for what a header has to have. Throws
-/// an Error as read_mesh() does, or where the file has other rows than the slab is one of.
+/// Reads these rows alone; of a text file all rows. Only the header is checked, see
+/// validate_extras(). Throws an Error as read_mesh() does, or if the slab cannot be one of this
+/// file, which was replaced then.
 template <int Dim>
 [[nodiscard]] MeshExtras<Dim> read_extras(const std::filesystem::path& path, const MeshSlab& slab);
 

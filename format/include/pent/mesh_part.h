@@ -63,15 +63,15 @@ std::uint32_t write_mesh_slab(const std::filesystem::path& path,
                               const MeshExtras<Dim>& extras,
                               const WriteOptions& options);
 
-/// That checksum, of which nothing is written.
+/// The checksum that write_mesh_slab() would put into the header of a mesh without extras.
 ///
 /// @param writers  Null for one alone, whose slab is the mesh.
 template <int Dim>
 [[nodiscard]] std::uint32_t checksum_of_mesh(const SimplexMesh<Dim>& slab,
                                              const SlabWriters* writers);
 
-/// Checks that the data of a .pent file is what its header says, each process a slab of its bytes.
-/// Throws an Error on all of them where it is not.
+/// Checks that the data of a .pent file has the checksum in its header; each process reads a slab
+/// of the bytes. Throws an Error on all of them where it is not.
 ///
 /// @param readers  Null for one alone.
 void check_checksum(const std::filesystem::path& path, const SlabWriters* readers);
@@ -84,7 +84,9 @@ public:
     /// Reads the header, and goes through text for where its lines begin. Throws an Error as
     /// read_mesh() does.
     ///
-    /// @param parts  As one of how many parts the cells will be asked for.
+    /// @param parts  In how many parts the cells will be asked for, one at a time: cells of an
+    /// extrusion
+    ///               have to fit the machine's memory.
     MeshSource(const std::filesystem::path& path, int parts);
     ~MeshSource();
     MeshSource(const MeshSource&) = delete;

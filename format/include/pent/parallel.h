@@ -59,7 +59,7 @@ public:
     [[nodiscard]] auto sum(Index count, const Work& work) const;
 
 private:
-    /// While it lives, these are the workers of this thread.
+    /// Makes some workers those of this thread for as long as it lives.
     class Here {
     public:
         Here(const Workers& workers, bool is_task);

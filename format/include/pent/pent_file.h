@@ -35,10 +35,11 @@ struct FileInfo {
                                 ///< cells are those of the mesh that read_mesh() makes of them.
 };
 
-/// A further quantity of the vertices of a frame or a mesh, or of the cells of a mesh, by a name of
-/// letters, digits and '_', of which a file makes properties: by the name itself, or with _x, _y,
-/// _z and _w behind it. Within an element these differ from one another and from those reserved,
-/// and numbers one after the other are not named as a vector is.
+/// A further quantity of the vertices of a frame or a mesh, or of the cells of a mesh. Its name has
+/// letters, digits and '_'; a file has a property of that name for a number, or, with _x, _y, _z
+/// and _w behind it, one for each component of a vector. Within an element these differ from one
+/// another and from those reserved, and numbers that follow one another are not named like the
+/// components of a vector, as which they would be read.
 struct VertexField {
     std::string name;
     Eigen::MatrixXd values;  ///< A column each, of one number or of one an axis.

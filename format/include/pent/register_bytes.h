@@ -2,8 +2,8 @@
 
 namespace pent {
 
-/// Bytes of the widest register of numbers side by side that the file which includes this is
-/// compiled for. For kernels, which are compiled for several instruction sets: each has its own, of
+/// Bytes of the widest SIMD register of the instruction set for which the file that includes this
+/// is compiled. For kernels, which are compiled for several instruction sets: each has its own, of
 /// internal linkage, so that the linker never takes one for another.
 #if defined(__AVX512F__)
 constexpr int kRegisterBytes = 64;

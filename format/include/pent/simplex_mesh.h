@@ -42,7 +42,7 @@ struct SimplexMesh {
 /// The same in the plural: "triangles", "tetrahedra" or "pentachora".
 [[nodiscard]] std::string_view cell_name_plural(int dim);
 
-/// Signed measure of one simplex: det[p1 - p0, ..., pDim - p0] / Dim!, in m^Dim.
+/// Signed volume (area in the plane) of one simplex: det[p1 - p0, ..., pDim - p0] / Dim!, in m^Dim.
 ///
 /// @param corners  One corner a column.
 template <int Dim>

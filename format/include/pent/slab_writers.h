@@ -8,8 +8,9 @@
 
 namespace pent {
 
-/// Processes that write a file together, each a slab of its rows: those of the first in front. Each
-/// method is called by all, in the same order.
+/// Processes that write a file together: each has a slab of its rows, and slabs follow one another
+/// in the order of the processes. Every method is a collective operation: all processes call the
+/// same ones, in the same order.
 class SlabWriters {
 public:
     SlabWriters() = default;
@@ -25,14 +26,14 @@ public:
     /// A number of each; whole ones up to 2^53 stay as they are.
     [[nodiscard]] virtual std::vector<double> list(double own) const = 0;
 
-    /// Does work that may fail on one: then it fails on all.
+    /// Does work that may throw an Error: if it does on one process, all of them throw it.
     virtual void agree(const std::function<void()>& work) const = 0;
 };
 
-/// A number of bytes, or of rows, of each writer, and what lies in front of the own ones.
+/// Where the own slab lies among those of all writers, in bytes or rows.
 struct SlabPlace {
-    std::uint64_t before = 0;
-    std::uint64_t all = 0;
+    std::uint64_t before = 0;  ///< Of the writers in front of this one.
+    std::uint64_t all = 0;     ///< Of all writers.
 };
 
 /// @param writers  Null for one alone.

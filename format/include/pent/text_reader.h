@@ -11,9 +11,9 @@ namespace pent {
 
 /// A text file, handed out by lines and words; every error names the file and the line.
 ///
-/// Words are split at spaces and tabs. A backslash at the end of a line joins it with the next one.
-/// A byte-order mark in front of the first line is no part of it.
-/// Between lines there may be bytes that are no text; behind these, errors name the byte.
+/// Words are split at spaces and tabs. A word that is a backslash alone, at the end of a line,
+/// joins it with the next one. A byte-order mark in front of the first line is no part of it.
+/// Between lines there may be binary data; behind that, errors name the byte.
 class TextReader {
 public:
     /// Reads the whole file, or standard input. Throws an Error if that fails.

@@ -16,7 +16,7 @@
 
 namespace pent {
 
-/// Thrown where the parser of toml++ meets what it takes for impossible.
+/// Thrown where an assertion of the parser of toml++ does not hold.
 struct BrokenToml {};
 [[noreturn]] inline void refuse_broken_toml() {
     throw BrokenToml{};

@@ -6,9 +6,9 @@
 
 namespace pent {
 
-/// Throws an Error that begins with `name` unless a file may say so of the mesh beside it: as many
-/// numbers as it has vertices, cells and facets, all finite and in range, and quantities with names
-/// that are read as what they are (see VertexField). write_mesh() asks for no less.
+/// Throws an Error that begins with `name` unless extras may stand beside a mesh in a file: as many
+/// numbers as there are vertices, cells and facets, all finite and in range, and names of
+/// quantities by which they are read again (see VertexField). write_mesh() requires this.
 template <int Dim>
 void validate_extras(const SimplexMesh<Dim>& mesh,
                      const MeshExtras<Dim>& extras,
