@@ -1,10 +1,10 @@
 #include "program.h"
 
 #include "build_info.h"
+#include "usage_error.h"
 #include "values.h"
 
 #include <pent/error.h>
-#include <pent/nearest_name.h>
 #include <pent/output_file.h>
 #include <pent/parallel.h>
 #include <pent/printable.h>
@@ -79,54 +79,6 @@ std::string one_line(std::string text) {
     }
     std::replace(text.begin(), text.end(), '\n', ' ');
     return text;
-}
-
-// Those of a program, groups of which one is needed included.
-std::vector<const CLI::Option*> options_of(const CLI::App& cli) {
-    std::vector<const CLI::Option*> options = cli.get_options();
-    for (const CLI::App* group : cli.get_subcommands([](const CLI::App*) { return true; })) {
-        const std::vector<const CLI::Option*> more = options_of(*group);
-        options.insert(options.end(), more.begin(), more.end());
-    }
-    return options;
-}
-
-// What an option wants whose value is no number: "--layers: found "many"; expected a whole number",
-// or "" if another option is meant.
-std::string misread_value(const CLI::App& cli, const CLI::ConversionError& error) {
-    const std::string text = error.what();  // "Could not convert: --layers = many"
-    for (const CLI::Option* option : options_of(cli)) {
-        const std::string before = option->get_name() + " = ";
-        const std::size_t at = text.find(before);
-        if (at == std::string::npos) {
-            continue;
-        }
-        const std::string type = option->get_type_name();
-        const auto is_of = [&](const char* name) { return type.find(name) != std::string::npos; };
-        return option->get_name() + ": found \"" + text.substr(at + before.size()) + "\"; expected "
-               + (is_of("UINT") || is_of("INT") ? "a whole number"
-                  : is_of("FLOAT")              ? "a number"
-                  : type.empty()                ? "nothing behind it"
-                                                : type);
-    }
-    return "";
-}
-
-// "unknown option --layer; did you mean --layers?", or "" if every option is known.
-std::string unknown_option(const CLI::App& cli) {
-    for (const std::string& word : cli.remaining()) {
-        if (word.size() < 2 || word[0] != '-') {
-            continue;
-        }
-        const std::string unknown = word.substr(0, word.find('='));
-        std::vector<std::string> known;
-        for (const CLI::Option* option : options_of(cli)) {
-            known.push_back(option->get_name());
-        }
-        const std::string best = nearest_name(unknown, known);
-        return "unknown option " + unknown + (best.empty() ? "" : "; did you mean " + best + "?");
-    }
-    return "";
 }
 
 }  // namespace
@@ -270,12 +222,11 @@ int Program::run(int argc, const char* const* argv, const std::function<Verdict(
     } catch (const CLI::Success& success) {  // --help and --version
         return is_silent_ ? 0 : end(cli_.exit(success));
     } catch (const CLI::ParseError& error) {
-        std::string reason = unknown_option(cli_);
-        if (const auto* misread = dynamic_cast<const CLI::ConversionError*>(&error);
-            reason.empty() && misread != nullptr) {
-            reason = misread_value(cli_, *misread);
-        }
-        fail((reason.empty() ? error.what() : reason) + " (see " + name_ + " --help)");
+        fail(usage_error(cli_, error) + " (see " + name_ + " --help)");
+        return 2;
+    }
+    if (const std::string wrong = swallowed_option(cli_); !wrong.empty()) {
+        fail(wrong + " (see " + name_ + " --help)");
         return 2;
     }
     std::signal(SIGINT, on_stop_signal);

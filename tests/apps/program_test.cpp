@@ -39,6 +39,17 @@ TEST(Program, IsRefusedWhereItsReportCannotBeWritten) {
     EXPECT_NE(testing::internal::GetCapturedStderr().find("/dev/null/folder"), std::string::npos);
 }
 
+// CLI11 takes it for a file of that name.
+TEST(Program, DoesNotTakeAnOptionForTheValueOfAnother) {
+    Program tried = program();
+    const std::array<const char*, 3> command = {"pent-try", "--json", "--quiet"};
+    testing::internal::CaptureStderr();
+    EXPECT_EQ(tried.run(3, command.data(), [] { return Verdict::Finished; }), 2);
+    EXPECT_EQ(testing::internal::GetCapturedStderr(),
+              "pent-try: --json: found the option --quiet after it; expected FILE (Write a"
+              " machine-readable report to this file) (see pent-try --help)\n");
+}
+
 TEST(Program, AbandonedSaysSoAndThatItsReportCannotBeWritten) {
     Program tried = program();
     EXPECT_EXIT(static_cast<void>(tried.run(

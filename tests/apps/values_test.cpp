@@ -99,7 +99,7 @@ TEST(Values, AreToldByTheirOptionsInGroupsToo) {
     EXPECT_EQ(said_of({"--box", "2,a"}), "pent-try: --box: found \"2,a\"; expected X,Y" + end);
     EXPECT_EQ(said_of({"--bux", "2"}), "pent-try: unknown option --bux; did you mean --box?" + end);
     EXPECT_EQ(said_of({"--round=maybe"}),
-              "pent-try: --round: found \"maybe\"; expected nothing behind it" + end);
+              "pent-try: --round: found \"maybe\"; expected nothing after it" + end);
 }
 
 }  // namespace

@@ -312,7 +312,7 @@ TEST(PentStudy, SaysWhichOptionsGoWithWhichPart) {
         {"--run 1 --threads 2", "--threads: was fixed by --prepare"},
         {"--run 1 --error 1", "--error: chooses from what a study has found"},
         {"--run 1 --collect", "--run excludes --collect"},
-        {"--prepare --vary dt=1/30", "scene is required"}};
+        {"--prepare --vary dt=1/30", "scene is missing"}};
     for (const auto& [options, message] : wrong) {
         const Outcome outcome = run_program("pent-study " + std::string(options) + output);
         EXPECT_EQ(outcome.exit_code, 2) << options;
