@@ -17,10 +17,12 @@
 #include <pent/mesher/prove.h>
 #include <pent/pent_file.h>
 
+#include <cstdint>
 #include <filesystem>
 #include <map>
 #include <string>
 #include <utility>
+#include <vector>
 
 namespace {
 
@@ -175,13 +177,54 @@ Checked<Dim> check(const std::filesystem::path& path, bool quiet) {
     return checked;
 }
 
+// How many cells or facets have each label: "0 on 10 cells, 2 on 1 cell"; the numbers in a report.
+std::string say_counts(const std::vector<std::uint16_t>& labels,
+                       const std::string& one,
+                       const std::string& many,
+                       nlohmann::ordered_json& report) {
+    std::map<std::uint16_t, std::int64_t> counts;
+    for (const std::uint16_t label : labels) {
+        ++counts[label];
+    }
+    std::string text;
+    report = nlohmann::ordered_json::object();
+    for (const auto& [label, count] : counts) {
+        text +=
+            (text.empty() ? "" : ", ") + std::to_string(label) + " on " + counted(count, one, many);
+        report[std::to_string(label)] = count;
+    }
+    return text;
+}
+
+// What cells have, where not all are alike.
+template <int Dim>
+void say_cells(Program& program, const pent::SimplexMesh<Dim>& mesh) {
+    nlohmann::ordered_json& report = program.report()["cells"];
+    const std::string regions = say_counts(mesh.regions, "cell", "cells", report["regions"]);
+    if (report["regions"].size() > 1 || (!regions.empty() && !report["regions"].contains("0"))) {
+        program.say("regions    " + regions);
+    }
+    std::int64_t with_fibers = 0;
+    for (Eigen::Index cell = 0; cell < mesh.fibers.cols(); ++cell) {
+        with_fibers += mesh.fibers.col(cell).isZero(0) ? 0 : 1;
+    }
+    report["with_fibers"] = with_fibers;
+    if (mesh.fibers.cols() > 0) {
+        program.say("fibers     in " + counted(with_fibers, "cell", "cells"));
+    }
+    report["is_quadratic"] = !mesh.parents.empty();
+    if (!mesh.parents.empty()) {
+        program.say("quadratic  " + std::to_string(mesh.cell_count() >> Dim)
+                    + " cells of which these are the children");
+    }
+}
+
 // What a file has beside its mesh, said and in the report.
 template <int Dim>
 void say_extras(Program& program, const pent::MeshExtras<Dim>& extras) {
     nlohmann::ordered_json report = {{"vertex_fields", nlohmann::ordered_json::array()},
                                      {"cell_fields", nlohmann::ordered_json::array()},
-                                     {"has_bisection_tags", !extras.bisection_tags.empty()},
-                                     {"labels", nlohmann::ordered_json::object()}};
+                                     {"has_bisection_tags", !extras.bisection_tags.empty()}};
     std::string fields;
     for (const pent::VertexField& field : extras.vertex_fields) {
         fields += (fields.empty() ? "" : ", ") + field.name;
@@ -192,22 +235,14 @@ void say_extras(Program& program, const pent::MeshExtras<Dim>& extras) {
         report["cell_fields"].push_back(field.name);
     }
     if (!fields.empty()) {
-        program.say("fields     " + fields);
+        program.say("quantities " + fields);
     }
     if (!extras.bisection_tags.empty()) {
         program.say("tags       for bisection");
     }
-    std::map<std::uint16_t, Long> counts;
-    for (const std::uint16_t label : extras.labels) {
-        ++counts[label];
-    }
-    std::string labels;
-    for (const auto& [label, count] : counts) {
-        labels += formatted("%s%d: %lld", labels.empty() ? "" : ", ", label, count);
-        report["labels"][std::to_string(label)] = count;
-    }
+    const std::string labels = say_counts(extras.labels, "facet", "facets", report["labels"]);
     if (!labels.empty()) {
-        program.say("labels     " + labels + " facets");
+        program.say("labels     " + labels);
     }
     program.report()["extras"] = std::move(report);
 }
@@ -224,11 +259,12 @@ void check_mesh(Program& program, const std::filesystem::path& path) {
     program.say(
         "facets     " + counted(proof.interior_facets, "inner one matches", "inner ones match")
         + ", boundary of " + std::to_string(proof.boundary_facets) + " is closed and oriented");
-    program.say("links      of "
-                + counted(links.boundary_vertices - links.faulty, "boundary vertex is a sphere",
-                          "boundary vertices are spheres")
-                + ", " + counted(links.faulty, "is not", "are not"));
+    program.say(
+        "manifold   a sphere around "
+        + counted(links.boundary_vertices - links.faulty, "boundary vertex", "boundary vertices")
+        + ", none around " + std::to_string(links.faulty));
     program.say("quality    " + pent::apps::quality_line(quality));
+    say_cells<Dim>(program, file.mesh);
     say_extras<Dim>(program, file.extras);
     program.report()["file"] = {
         {"encoding", file.info.encoding == pent::Encoding::Ascii ? "ascii" : "binary"},
@@ -326,11 +362,11 @@ void check_or_prove(Program& program, const std::filesystem::path& path) {
 
 // NOLINTNEXTLINE(bugprone-exception-escape): an option that excludes one that is there
 int main(int argc, char** argv) {
-    Program program("pent-check",
-                    "Validates a .pent file; without one, proves that prisms, stuffed and halved "
-                    "simplices are cut "
-                    "correctly.",
-                    "pent-check octopus.pent");
+    Program program(
+        "pent-check",
+        "Validates a .pent file. Without one it proves, by trying all cases, that prisms "
+        "and the simplices of shapes are cut so that neighbors fit together.",
+        "pent-check octopus.pent");
     std::filesystem::path path;
     bool eigen = false;
     CLI::Option* file = program.options()

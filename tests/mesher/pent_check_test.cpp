@@ -84,8 +84,8 @@ TEST(PentCheck, ReportsWhatItSays) {
     const Outcome outcome = run_program("pent-check " + out + " --json " + json);
     ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
     test::expect_contains(outcome.out,
-                          {"binary, by a test, crc32c ", "fields     heat, age of cells", "tags ",
-                           "labels     2: 1, 7: 2 facets"});
+                          {"binary, by a test, crc32c ", "quantities heat, age of cells", "tags ",
+                           "labels     2 on 1 facet, 7 on 2 facets"});
     const auto report = nlohmann::json::parse(test::text_of(json));
     EXPECT_EQ(report["file"]["encoding"], "binary");
     EXPECT_EQ(report["file"]["created_by"], "a test");
@@ -93,6 +93,40 @@ TEST(PentCheck, ReportsWhatItSays) {
     EXPECT_EQ(report["extras"], nlohmann::json::parse(
                                     R"({"vertex_fields": ["heat"], "cell_fields": ["age"],
                                         "has_bisection_tags": true, "labels": {"2": 1, "7": 2}})"));
+}
+
+TEST(PentCheck, SaysWhatCellsHave) {
+    const test::TempFolder folder;
+    const std::string out = (folder / "a.pent").string();
+    const std::string json = (folder / "a.json").string();
+    SimplexMesh<2> mesh = test::kuhn_box<2>({2, 1}, {1, 1});
+    ASSERT_EQ(mesh.cell_count(), 4);
+    mesh.regions = {0, 3, 3, 3};
+    mesh.fibers = Positions<2>::Zero(2, 4);
+    mesh.fibers.col(1) << 1, 0;
+    write_mesh(out, mesh);
+    const Outcome outcome = run_program("pent-check " + out + " --json " + json);
+    ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+    test::expect_contains(outcome.out,
+                          {"\nregions    0 on 1 cell, 3 on 3 cells\n", "\nfibers     in 1 cell\n"});
+    EXPECT_EQ(nlohmann::json::parse(test::text_of(json))["cells"],
+              nlohmann::json::parse(
+                  R"({"regions": {"0": 1, "3": 3}, "with_fibers": 1, "is_quadratic": false})"));
+    mesh.regions = {0, 0, 0, 0};  // as without any
+    mesh.fibers.resize(2, 0);
+    write_mesh(out, mesh);
+    const std::string plain = run_program("pent-check " + out).out;
+    EXPECT_EQ(plain.find("regions"), std::string::npos);
+    EXPECT_EQ(plain.find("fibers"), std::string::npos);
+}
+
+TEST(PentCheck, SaysThatCellsAreChildrenOfQuadraticOnes) {
+    const test::TempFolder folder;
+    const std::string out = (folder / "a.pent").string();
+    ASSERT_EQ(run_program("pent-mesh --box 1,1,1,1 --cut corners --quadratic -o " + out).exit_code,
+              0);
+    test::expect_contains(run_program("pent-check " + out).out,
+                          {"quadratic  16 cells of which these are the children"});
 }
 
 TEST(PentCheck, NamesCellsThatDoNotFitAndPartsThatTouch) {
