@@ -42,7 +42,7 @@ void add_options(CLI::App& cli, Arguments& arguments) {
                  "G4MF: coordinates in double, which not every program reads");
     cli.add_flag(
         "--mfem-attributes", arguments.options.has_mfem_attributes,
-        "MFEM: number the boundary behind the labels of the cells, as MFEM's own meshes have"
+        "MFEM: number the boundary after the labels of the cells, as MFEM's own meshes have"
         " it; default: those of the body, or 1 bottom, 2 lateral, 3 top");
 }
 

@@ -41,18 +41,19 @@ CLI::Option* choose(CLI::Option* option,
 
 std::vector<CLI::Option*> add_shapes(CLI::Option_group& input, MeshArguments& arguments) {
     CLI::Option* sphere =
-        input.add_option("--sphere", arguments.sphere, "A surface of 20 N^2 triangles")
+        input.add_option("--sphere", arguments.sphere, "A sphere: a surface of 20 N^2 triangles")
             ->check(whole_number(1, 1000))
             ->type_name("N");
     CLI::Option* ball =
-        input
-            .add_option("--ball", arguments.ball, "20 N^2 tetrahedra around the center of a sphere")
+        input.add_option("--ball", arguments.ball, "A ball: 20 N^2 tetrahedra around its center")
             ->check(whole_number(1, 1000))
             ->type_name("N");
     CLI::Option* box =
         input
-            .add_option("--box", arguments.box,
-                        "Tesseracts along x,y,z,w, or cubes along x,y,z; this is not extruded")
+            .add_option(
+                "--box", arguments.box,
+                "A box of so many tesseracts along x,y,z,w, or cubes along x,y,z; it is not "
+                "extruded")
             ->delimiter(',')
             ->expected(3, 4)
             ->type_name("X,Y,Z[,W]");
@@ -133,7 +134,7 @@ void add_image(CLI::App& cli, MeshArguments& arguments) {
         ->excludes(level)
         ->group(group);
     cli.add_option("--spacing", arguments.spacing,
-                   "Between samples along x,y,z,w (m); default: as in the file")
+                   "Distance between samples along x,y,z,w (m); default: as in the file")
         ->delimiter(',')
         ->expected(4)
         ->check(positive_number())
@@ -209,12 +210,14 @@ void add_extrusion(CLI::App& cli, MeshArguments& arguments) {
     mesher::ExtrusionRequest& extrusion = arguments.request.extrusion;
     const auto group = "Extrusion";
     CLI::Option* thickness =
-        cli.add_option("--thickness", arguments.thickness,
-                       "Along w (m), with --one-sided to -w where negative; default: 0.2 of the "
-                       "largest side, with --round all of it")
+        cli.add_option(
+               "--thickness", arguments.thickness,
+               "How thick the body is along w (m); with --one-sided below 0 for towards -w; "
+               "default: 0.2 of the largest side, with --round all of it")
             ->group(group);
     CLI::Option* direction =
-        cli.add_option("--extrude", arguments.direction, "The whole extrusion as x,y,z,w (m)")
+        cli.add_option("--extrude", arguments.direction,
+                       "The whole extrusion as a vector x,y,z,w (m), which may lean")
             ->delimiter(',')
             ->expected(3, 4)
             ->type_name("X,Y,Z,W")
@@ -244,8 +247,9 @@ void add_extrusion(CLI::App& cli, MeshArguments& arguments) {
                                       "Shrink to a point at both ends: a ball becomes a hyperball")
                              ->excludes(direction)
                              ->group(group);
-    cli.add_option("--profile", extrusion.profile,
-                   "File of layers, `w scale [x y z [xy xz xw yz yw zw]]` a line (m, degrees)")
+    cli.add_option(
+           "--profile", extrusion.profile,
+           "File of layers, on each line `w scale [x y z [xy xz xw yz yw zw]]` (m, degrees)")
         ->type_name("FILE")
         ->excludes(thickness)
         ->excludes(direction)
@@ -256,13 +260,17 @@ void add_extrusion(CLI::App& cli, MeshArguments& arguments) {
         ->group(group);
     CLI::Option* order =
         choose<VertexOrder>(
-            cli.add_option("--order", extrusion.order, "Vertex order: index, sweep or quality"),
+            cli.add_option(
+                "--order", extrusion.order,
+                "How prisms are cut: as vertices are numbered (index), along the longest side "
+                "(sweep) or for the best cells (quality)"),
             {{"index", VertexOrder::Index},
              {"sweep", VertexOrder::Sweep},
              {"quality", VertexOrder::Quality}})
             ->group(group);
     cli.add_option("--edge-directions", extrusion.edge_directions,
-                   "Instead of an order: a file with a directed edge `from to` of the base a line")
+                   "Instead of an order: a file with a directed edge of the base on each line, "
+                   "`from to`, counted from 0")
         ->type_name("FILE")
         ->excludes(order)
         ->group(group);

@@ -204,8 +204,8 @@ void say_body(const Program& program, const Made& made) {
     program.say("body       " + size_text(body.mesh.vertex_count(), body.proof.cells, 4)
                 + formatted(", %.10g m^4", body.proof.volume));
     program.say(
-        formatted("integral   of the moving volume over w: %.10g m^4; the body has %.2g of it %s",
-                  body.integral, std::abs(body.proof.volume / body.integral - 1),
+        formatted("integral   of the moving volume over w: %.10g m^4; the body has %.2g%% %s",
+                  body.integral, 100 * std::abs(body.proof.volume / body.integral - 1),
                   body.proof.volume < body.integral ? "less" : "more"));
     program.say(box_line<4>(body.mesh.positions));
     program.say(proof_line(body.proof.interior_facets, body.proof.boundary_facets));

@@ -100,8 +100,9 @@ void add_space_time_options(CLI::App& cli, MeshArguments& arguments) {
     const auto goes_with = [&](CLI::Option* option) {
         return option->needs(space_time)->group(group);
     };
-    goes_with(cli.add_option("--time-scale", moving.options.time_scale,
-                             "The time t is at w = this times t (m/s)")
+    goes_with(cli.add_option(
+                     "--time-scale", moving.options.time_scale,
+                     "How many meters along w a second is: the time t is at w = this times t (m/s)")
                   ->check(positive_number())
                   ->capture_default_str());
     goes_with(cli.add_option("--refine-time", moving.refine_time,
@@ -112,11 +113,12 @@ void add_space_time_options(CLI::App& cli, MeshArguments& arguments) {
     goes_with(cli.add_option("--every", moving.series.every, "Only every K-th frame")
                   ->check(whole_number(1, 1'000'000))
                   ->type_name("K"));
+    goes_with(cli.add_option("--time-step", moving.time_step,
+                             "Time from one numbered file to the next (s)")
+                  ->check(positive_number()));
     goes_with(
-        cli.add_option("--time-step", moving.time_step, "From one numbered file to the next (s)")
-            ->check(positive_number()));
-    goes_with(cli.add_option("--body", moving.series.body, "Of a run folder with several bodies")
-                  ->type_name("NAME"));
+        cli.add_option("--body", moving.series.body, "Which body, of a run folder that has several")
+            ->type_name("NAME"));
     goes_with(cli.add_flag("--slabs", moving.has_slabs,
                            "A file for each step from frame to frame: NAME_000000.pent and so on"));
     goes_with(cli.add_flag("--bisection", moving.options.is_bisection_ready,

@@ -110,9 +110,9 @@ std::string summarize_defects(Program& program, const RunReport& report) {
         const std::string cells = "of " + std::to_string(report.size.cells) + " cells ";
         program.say(last.inverted > 0
                         ? counted(last.inverted, cells + "is", cells + "are")
-                              + " inside out at the end, and some were behind " + steps
+                              + " inside out at the end, and some were after " + steps
                               + ": pressed or turned too hard; smaller steps or less force may help"
-                        : "no cell is inside out at the end, but some were behind " + steps);
+                        : "no cell is inside out at the end, but some were after " + steps);
     }
     return last.collapsed > 0  ? " with collapsed elements"
            : last.inverted > 0 ? " with inverted cells"
@@ -293,7 +293,7 @@ int run_simulation_program(Program& program,
         options.add_flag("--force", arguments.force, "Replace a run that is in the folder");
     options
         .add_flag("--resume", arguments.resume,
-                  "Go on with the run in the folder behind its last whole frame")
+                  "Go on with the run in the folder after its last whole frame")
         ->excludes(force);
     options
         .add_option("--isa", arguments.isa,

@@ -56,8 +56,9 @@ void say_reference(const Program& program, const StudyReport& report) {
                 + ", observed order " + number(reference.order) + ", error bar "
                 + number(100 * reference.error_bar) + "%");
     program.say("compared   positions up to t = " + number(reference.window) + " s"
-                + (reference.has_contact ? ", 0.2 s behind the first contact; statistics beyond"
-                                         : ", the end"));
+                + (reference.has_contact
+                       ? ", 0.2 s after the first contact; from there on means and centers"
+                       : ", the end"));
 }
 
 void say_results(const Program& program, const StudyReport& report) {
@@ -326,9 +327,11 @@ int main(int argc, char** argv) {
     CLI::App& options = program.options();
     options
         .add_option("scene", arguments.study.scene,
-                    "Scene file (TOML); of a study that is prepared not needed")
+                    "Scene file (TOML); not needed for a study that is prepared")
         ->type_name("FILE");
-    options.add_option("-o,--output", arguments.study.folder, "Folder for everything")
+    options
+        .add_option("-o,--output", arguments.study.folder,
+                    "Folder of the study, for all that it writes")
         ->required()
         ->type_name("OUT");
     options
@@ -337,10 +340,11 @@ int main(int argc, char** argv) {
             "NAME=VALUE,VALUE,...: dt (s), preset, contact (its model), layers or subdivide (of the"
             " mesh, where the scene has its recipe), a key of [solver], or BLOCK.KEY of every other"
             " block, as in attachment.stiffness=100,1e4")
+        ->type_name("NAME=VALUES")
         ->allow_extra_args(false);
     options
         .add_option("--repeat", arguments.study.repeats,
-                    "Timed runs of each; the median counts; default: 3")
+                    "Timed runs of each combination, of which the medians count; default: 3")
         ->check(whole_number(1, 100));
     options
         .add_option("--frames", arguments.study.frames, "Study only so many frames; default: all")
@@ -350,9 +354,10 @@ int main(int argc, char** argv) {
                     "How often the reference halves the smallest dt; default: 2")
         ->check(whole_number(2, 8));
     options
-        .add_option("--reference-integrator", arguments.study.reference_integrator,
-                    "Of the reference; linear_euler where Newton's method does not get through; "
-                    "default: bdf2")
+        .add_option(
+            "--reference-integrator", arguments.study.reference_integrator,
+            "What the reference is computed by: bdf2, or linear_euler where Newton's method "
+            "does not get through; default: bdf2")
         ->type_name("NAME");
     options.add_flag("--keep-runs", arguments.study.keep_runs, "Keep the frames of all runs");
     options.add_flag("--force", arguments.study.force,
@@ -363,7 +368,7 @@ int main(int argc, char** argv) {
                              ->check(positive_number());
     options
         .add_option("--budget", arguments.budget,
-                    "Choose the most accurate settings that run the whole scene within this (s)")
+                    "Choose the most accurate settings that run the whole scene in this time (s)")
         ->check(positive_number())
         ->excludes(error);
     options

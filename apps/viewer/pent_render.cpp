@@ -63,11 +63,14 @@ void add_options(CLI::App& cli, Arguments& arguments) {
     cli.add_option("--fps", render.frames_per_second,
                    "Pictures a second of the movie; default: as in the simulation")
         ->check(number(0.1, 1000.0));
-    cli.add_option("--azimuth", render.view.azimuth, "Camera, degrees about y; default: 30")
+    cli.add_option("--azimuth", render.view.azimuth,
+                   "Where the camera stands, degrees about y; default: 30")
         ->check(number(-3600.0, 3600.0));
-    cli.add_option("--elevation", render.view.elevation, "Camera, degrees up; default: 18")
+    cli.add_option("--elevation", render.view.elevation,
+                   "How far the camera looks down, degrees; default: 18")
         ->check(number(-89.0, 89.0));
-    cli.add_option("--fov", render.view.field_of_view, "Camera, degrees upright; default: 28")
+    cli.add_option("--fov", render.view.field_of_view,
+                   "What the camera sees from top to bottom, degrees; default: 28")
         ->check(number(1.0, 150.0));
     cli.add_flag("--onion", render.is_onion,
                  "Show several slices in one picture, all but the middle one as ghosts");

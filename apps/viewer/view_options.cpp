@@ -131,8 +131,7 @@ void add_view_options(CLI::App& cli, ViewArguments& arguments) {
         ->type_name("LIST");
     cli.add_option("--w", arguments.w,
                    "Slice at w = C, m; several with commas, or A:B:N for N from A to B; default: "
-                   "one through "
-                   "the middle of the bodies")
+                   "one through the middle of the bodies")
         ->type_name("C")
         ->allow_extra_args(false);
     cli.add_option("--rotate", arguments.rotations,
@@ -144,7 +143,7 @@ void add_view_options(CLI::App& cli, ViewArguments& arguments) {
                    "Slice across this direction instead, X,Y,Z,W (made unit)")
         ->type_name("N");
     cli.add_option("--offset", arguments.offsets,
-                   "Distance of the slice from the origin along --normal, m; as --w")
+                   "Distance of the slice from the origin along --normal, m; several as for --w")
         ->type_name("D")
         ->allow_extra_args(false);
     cli.add_option("--project", arguments.projection,

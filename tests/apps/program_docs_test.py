@@ -91,7 +91,7 @@ class ProgramDocs(unittest.TestCase):
         page = man_page("pent-mesh").replace("\\-", "-")
         heads = re.findall(r"^\.TP\n(.*)$", page, re.M)
         self.assertEqual([head for head in heads if "Needs:" in head or "Excludes:" in head], [])
-        self.assertIn("Of a run folder with several bodies (needs --space-time)\n", page)
+        self.assertIn("Which body, of a run folder that has several (needs --space-time)\n", page)
         self.assertRegex(page, r"NUMBER above 0, default 1\\fR\n.*\(not with input\)\n")
         self.assertIn("(not with --extrude, --profile)\n", page)
 

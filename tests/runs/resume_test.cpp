@@ -267,7 +267,7 @@ TEST(Resume, TellsOfAllPartsHoweverTheyEnded) {
                                   .on_warning = nullptr,
                                   .on_resume = [&](const std::string& line) { told = line; }});
     EXPECT_EQ(told,
-              "the run had died (it was killed or crashed) behind frame 4; it goes on from there");
+              "the run had died (it was killed or crashed) after frame 4; it goes on from there");
     ASSERT_EQ(report.frames.size(), 6U);
     ASSERT_EQ(report.steps.size(), 10U);
     for (std::size_t i = 0; i < 10; ++i) {

@@ -189,7 +189,7 @@ std::string contact_text(const Trial& trial, std::int64_t pairs) {
            + counted(pairs, "pair touches", "pairs touch") + " after a step"
            + (contact.model == ContactModel::Barrier
                   ? ", " + time_text(trial.step.contact.ccd_seconds)
-                        + " of the time is that nothing crosses"
+                        + " of the time to see that nothing crosses"
                   : "");
 }
 
@@ -278,9 +278,9 @@ Terms sleeping(const Trial& trial) {
         return {off("sleeping", "no [sleep]: bodies at rest are solved for like all others")};
     }
     return {on("sleeping",
-               formatted("after %.3g s below %.3g of its size a second a body is solved for no"
-                         " more, until something moves it",
-                         sleep->time, sleep->speed))};
+               formatted("a body that moves by less than %.3g of its size a second for %.3g s is"
+                         " not solved for until something moves it",
+                         sleep->speed, sleep->time))};
 }
 
 Terms solver(const Trial& trial) {
@@ -306,14 +306,13 @@ Terms output(const Trial& trial) {
     const Output& output = trial.scene.output;
     std::string what;
     for (const VertexQuantity quantity : output.vertex) {
-        what += (what.empty() ? "" : ", ") + word(quantity);
+        what += ", " + word(quantity);
     }
     return {{.name = "output",
              .is_on = !output.vertex.empty() || output.contact_pairs || output.balance,
-             .why = (what.empty() ? "nothing" : what) + " of every vertex, "
+             .why = "positions, velocities" + what + " of every vertex, "
                     + (output.contact_pairs ? "pairs" : "no pairs") + " in contact, "
-                    + (output.balance ? "balance" : "no balance")
-                    + " of steps, in the run folder"}};
+                    + (output.balance ? "" : "no ") + "energies and momenta of every step"}};
 }
 
 // What every rank has, and what they tell one another in a step.

@@ -68,7 +68,7 @@ void fields(Part& step, const Visit& visit) {
               "substeps of `linear_euler` that Newton's method took, as the linear one went astray")
               .may_be_missing(),
           step.damped);
-    visit(key("newton_iterations", "", "behind the first, linear step"), step.newton_iterations);
+    visit(key("newton_iterations", "", "after the first, linear step"), step.newton_iterations);
     visit(key("iterations", "", "of the linear solver, in all"), step.iterations);
     visit(key("asleep", "", "bodies that sleep at the end"), step.asleep);
     visit(key("unknowns", "", "scalars solved for, in all linear solves"), step.unknowns);
@@ -175,7 +175,7 @@ void fields(Part& report, const Visit& visit) {
     visit(key("bodies", "", "in the order of the scene"), report.bodies);
     visit(key("parts", "", "calls of pent-sim").may_be_missing(), report.parts);
     visit(key("frames", "", "in the folder, frame 0 included"), report.frames);
-    visit(key("steps", "", "behind them"), report.steps);
+    visit(key("steps", "", "that led to them"), report.steps);
 }
 
 }  // namespace pent::runs

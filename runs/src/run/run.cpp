@@ -178,7 +178,7 @@ void Run<Dim>::tell_resume(const Resumption<Dim>& found) const {
     const RunPart& last = found.history.parts.back();
     const std::string where = "frame " + std::to_string(found.frame);
     callbacks_.on_resume(last.verdict == RunVerdict::Died
-                             ? "the run had died (it was killed or crashed) behind " + where
+                             ? "the run had died (it was killed or crashed) after " + where
                                    + "; it goes on from there"
                              : "the run had " + std::string(verdict_name(last.verdict))
                                    + "; it goes on from " + where);

@@ -98,7 +98,7 @@ struct ReferenceReport {
     double order = 0;                ///< Observed from the last three levels.
     double error_bar = 0;            ///< Estimated error of the finest level, as Errors::position.
     bool is_converged = false;       ///< Differences fall, at an order of at least 0.5.
-    double window = 0;  ///< s: positions are compared up to here, 0.2 s behind the first
+    double window = 0;  ///< s: positions are compared up to here, 0.2 s after the first
                         ///< contact, or to the end of the scene where there is none.
     bool has_contact = false;
     Cost cost;  ///< Of the finest level, run once.

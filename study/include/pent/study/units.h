@@ -13,7 +13,7 @@ namespace pent::study {
 /// A study in parts, which run_study() is made of, too: it is prepared, its units are run, anywhere
 /// that sees the folder, in any order and many at a time, and it is collected. Everything that the
 /// later parts need stands in the folder. A unit that is done is not run again. One that was killed
-/// goes on: a level of the reference behind its last frame, a combination with the repetition that
+/// goes on: a level of the reference after its last frame, a combination with the repetition that
 /// it was in.
 
 /// A level of the reference, or a combination of settings with all its repetitions.
