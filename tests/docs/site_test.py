@@ -114,6 +114,32 @@ class Site(unittest.TestCase):
                 self.assertEqual(len(links.broken_in_site(pathlib.Path(folder))), count)
 
 
+WRITTEN_BY_SCRIPTS = {"accuracy.md", "paper-table.md", "stability.md"}  # from templates of theirs
+
+
+class Pages(unittest.TestCase):
+    pages = [SOURCE / "README.md", SOURCE / "CONTRIBUTING.md"]
+    pages += sorted(page for page in SOURCE.glob("docs/**/*.md") if "site" not in page.parts)
+
+    def test_each_says_first_who_it_is_for(self):
+        for page in self.pages[1:]:
+            text = re.sub(r"<!--.*?-->", "", page.read_text())
+            first = text.partition("\n")[2].lstrip()
+            with self.subTest(page.name):
+                if page.name not in WRITTEN_BY_SCRIPTS:
+                    self.assertRegex(first, r"^\*[A-Z]")
+
+    def test_rows_of_tables_have_as_many_cells_as_their_heads(self):
+        for page in self.pages:
+            head = None
+            for number, line in enumerate(page.read_text().splitlines(), 1):
+                is_row = line.lstrip().startswith("| ")
+                cells = len(re.findall(r"(?<!\\)\|", line))
+                head = (cells if head is None else head) if is_row else None
+                with self.subTest(f"{page.name}:{number}"):
+                    self.assertEqual(head or cells, cells)
+
+
 class Stage(unittest.TestCase):
     def setUp(self):
         self.folder = pathlib.Path(tempfile.mkdtemp())
