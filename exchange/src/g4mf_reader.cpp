@@ -129,14 +129,12 @@ private:
 
     // The bytes of a buffer, from the text, a file beside this one, or a chunk.
     const std::string& buffer(std::size_t index) {
-        if (index >= buffers_.size()) {
-            buffers_.resize(index + 1);
-        }
+        const Json& entry = json_.at("buffers").at(index);
+        buffers_.resize(json_.at("buffers").size());
         std::optional<std::string>& known = buffers_[index];
         if (known) {
             return *known;
         }
-        const Json& entry = json_.at("buffers").at(index);
         const std::string place = "buffer " + std::to_string(index);
         if (entry.contains("encoding") || entry.contains("compression")) {
             fail(place + ": is compressed; expected one that is not");

@@ -115,10 +115,13 @@ void for_each_triangle(const std::vector<Side>& sides, const Visit& visit) {
         sides, [](const Side& a, const Side& b) { return a.corners == b.corners; }, visit);
 }
 
+// What a tetrahedron spans with the surface's first point; over a closed surface these sum to what
+// it encloses. With the origin they would, too, but cancel all digits of a surface far from it.
 double hypervolume_below(const TetSurface& surface, Eigen::Index tetrahedron) {
     Eigen::Matrix4d corners;
     for (int corner = 0; corner < 4; ++corner) {
-        corners.col(corner) = surface.points.col(surface.tetrahedra(corner, tetrahedron));
+        corners.col(corner) =
+            surface.points.col(surface.tetrahedra(corner, tetrahedron)) - surface.points.col(0);
     }
     return corners.determinant() / 24;
 }
@@ -331,10 +334,13 @@ SimplexMesh<4> cone_of(const TetSurface& surface, std::string_view name) {
                     + std::to_string(found.open + found.overfull + found.one_sided)
                     + " triangles without a neighbor of their own; a body has none");
     }
-    const HalfSpaces spaces = half_spaces_of(surface);
+    // About one of its points, so that a surface far from the origin keeps all digits.
+    const Vector4d about = surface.points.col(0);
+    const TetSurface near{surface.points.colwise() - about, surface.tetrahedra};
+    const HalfSpaces spaces = half_spaces_of(near);
     const double size =
-        (surface.points.rowwise().maxCoeff() - surface.points.rowwise().minCoeff()).norm();
-    Vector4d center = surface.points.rowwise().mean();
+        (near.points.rowwise().maxCoeff() - near.points.rowwise().minCoeff()).norm();
+    Vector4d center = near.points.rowwise().mean();
     if (!move_inside(spaces, 1e-6 * size, center)) {
         throw Error(std::string(name)
                     + ": no point was found that sees all of the surface; a body is made of what is"
@@ -350,7 +356,7 @@ SimplexMesh<4> cone_of(const TetSurface& surface, std::string_view name) {
     }
     SimplexMesh<4> mesh;
     mesh.positions.resize(4, surface.points.cols() + 1);
-    mesh.positions << surface.points, center;
+    mesh.positions << surface.points, about + center;
     mesh.cells.resize(5, surface.tetrahedra.cols());
     mesh.cells.row(0).setConstant(static_cast<std::uint32_t>(surface.points.cols()));
     mesh.cells.bottomRows<4>() = surface.tetrahedra;

@@ -213,6 +213,14 @@ void require(const PlyElement& element,
                         + column.name + ", which an extrusion needs");
         }
     }
+    // Those of the vertices and of the base cells are looked at wherever a header is read.
+    for (const PlyProperty& property : element.properties) {
+        if (property.count_type) {
+            throw Error(path.string() + ": header: element " + element.name
+                        + " has the list property " + property.name
+                        + ", expected properties of fixed width");
+        }
+    }
 }
 
 template <int Dim>

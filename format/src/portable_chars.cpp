@@ -73,9 +73,9 @@ Decimal next(Decimal decimal) {
 // The fewest digits that read back as the value, and of those the nearest.
 template <typename Real>
 Decimal shortest(Real value) {
-    // A decimal of at most so many digits survives being read into a normal number, so a shorter one
-    // comes out here with zeros behind it, which are cut off. Subnormal numbers have less precision
-    // and are tried from one digit on.
+    // A decimal of at most so many digits survives being read into a normal number, so a shorter
+    // one comes out here with zeros behind it, which are cut off. Subnormal numbers have less
+    // precision and are tried from one digit on.
     constexpr int kSafe = std::numeric_limits<Real>::digits10;
     const int least = value < std::numeric_limits<Real>::min() ? 1 : kSafe;
     for (int count = least;; ++count) {

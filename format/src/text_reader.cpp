@@ -82,19 +82,24 @@ bool TextReader::next_line() {
 }
 
 std::string_view TextReader::word() {
-    skip_space();
-    const std::size_t start = at_;
-    while (at_ < end_ && !is_space(text_[at_])) {
-        ++at_;
-    }
-    const std::string_view found = std::string_view(text_).substr(start, at_ - start);
-    if (found == "\\") {
+    for (;;) {
         skip_space();
-        if (at_ == end_) {
-            return next_line() ? word() : std::string_view();
+        const std::size_t start = at_;
+        while (at_ < end_ && !is_space(text_[at_])) {
+            ++at_;
+        }
+        const std::string_view found = std::string_view(text_).substr(start, at_ - start);
+        if (found != "\\") {
+            return found;
+        }
+        skip_space();
+        if (at_ < end_) {
+            return found;
+        }
+        if (!next_line()) {
+            return {};
         }
     }
-    return found;
 }
 
 std::string_view TextReader::next_word(std::string_view expected) {

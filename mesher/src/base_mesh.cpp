@@ -21,11 +21,7 @@ namespace {
 Repaired mend(const Surface& surface, const BodyRequest& request, Repair level) {
     RepairOptions options = request.repair;
     options.repair = level;
-    try {
-        return repair(surface, options);
-    } catch (const Error& error) {
-        throw Error(name_of_input(request) + ": " + error.what());
-    }
+    return with_name(request, [&] { return repair(surface, options); });
 }
 
 void add_failure(BodyReport& report, const std::string& failure) {
@@ -34,12 +30,12 @@ void add_failure(BodyReport& report, const std::string& failure) {
     }
 }
 
-Surface oriented_surface(const Repaired& mended, BodyReport& report) {
+Surface oriented_surface(const Repaired& mended, const BodyRequest& request, BodyReport& report) {
     report.repair = mended.used;
     report.repair_distance = mended.distance;
     add_failure(report, mended.failures);
     report.surface_read = mended.before;
-    Oriented oriented = orient(mended.surface);
+    Oriented oriented = with_name(request, [&] { return orient(mended.surface); });
     report.flipped_triangles = oriented.flipped_triangles;
     report.components = oriented.components;
     report.cavities = oriented.cavities;
@@ -154,8 +150,9 @@ SimplexMesh<3> fill_base(const SurfaceFile& file,
                          StageClock& clock) {
     report.merged_points = file.merged_points;
     const auto mend_to = [&](Repair level) {
-        Surface surface = clock.time(
-            "mend", [&] { return oriented_surface(mend(file.surface, request, level), report); });
+        Surface surface = clock.time("mend", [&] {
+            return oriented_surface(mend(file.surface, request, level), request, report);
+        });
         before_filling(surface);
         return surface;
     };
@@ -169,10 +166,11 @@ SimplexMesh<3> fill_base(const SurfaceFile& file,
         tetrahedra = fill_it(surface);
     } catch (const Error& error) {
         if (request.repair.repair != Repair::Auto || report.repair == Repair::Wrap) {
-            throw;
+            throw Error(name_of_input(request) + ": " + error.what());
         }
         add_failure(report, error.what());
-        tetrahedra = fill_it(mend_to(Repair::Wrap));
+        const Surface wrap = mend_to(Repair::Wrap);
+        tetrahedra = with_name(request, [&] { return fill_it(wrap); });
     }
     report.surface = check_surface(filled);
     report.surface_area = area(filled);

@@ -2,6 +2,7 @@
 
 #include "stage_clock.h"
 
+#include <pent/error.h>
 #include <pent/mesher/make_body.h>
 #include <pent/mesher/surface.h>
 #include <pent/pent_file.h>
@@ -13,6 +14,16 @@ namespace pent::mesher {
 
 /// What errors call the input: a path, "standard input" or "the shape".
 [[nodiscard]] std::string name_of_input(const BodyRequest& request);
+
+/// Does a step that knows only the mesh, and puts the name of the input before its errors.
+template <typename Step>
+auto with_name(const BodyRequest& request, Step step) {
+    try {
+        return step();
+    } catch (const Error& error) {
+        throw Error(name_of_input(request) + ": " + error.what());
+    }
+}
 
 /// Whether the input is tetrahedra already, and not a surface to be filled.
 [[nodiscard]] bool has_tetrahedra(const BodyRequest& request);

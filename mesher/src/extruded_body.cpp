@@ -21,8 +21,13 @@ OrderedCells<Dim> ordered_cells(const ExtrusionRequest& request,
                                 const SimplexMesh<Dim>& base,
                                 const Eigen::Matrix<double, Dim + 1, 1>& slab) {
     if (!request.edge_directions.empty()) {
-        return order_cells<Dim>(base,
-                                read_directed_edges(request.edge_directions, base.vertex_count()));
+        const DirectedEdges edges =
+            read_directed_edges(request.edge_directions, base.vertex_count());
+        try {
+            return order_cells<Dim>(base, edges);
+        } catch (const Error& error) {
+            throw Error(request.edge_directions.string() + ": " + error.what());
+        }
     }
     std::vector<std::uint32_t> ranks = rank_vertices<Dim>(base, request.order);
     if (request.order == VertexOrder::Quality) {

@@ -4,6 +4,7 @@
 #include <pent/error.h>
 #include <pent/mesher/subdivide.h>
 
+#include <string>
 #include <utility>
 
 namespace pent::mesher {
@@ -53,11 +54,12 @@ Body<Dim> finish(Body<Dim> body,
     for (Eigen::Index axis = 0; axis < request.translation.size(); ++axis) {
         mesh.positions.row(axis).array() += request.translation[axis];
     }
-    validate(mesh, "the mesh that was made");
+    const std::string name = name_of_input(request) + ": the mesh that was made";
+    validate(mesh, name);
     report.proof = clock.time("prove", [&] { return prove<Dim>(mesh, expected_volume); });
     if (!report.proof.holds()) {
         // GCOVR_EXCL_START: the construction is proven; this is for mistakes of ours
-        throw Error("the mesh that was made is not sound: " + describe_faults(report.proof, Dim));
+        throw Error(name + " is not sound: " + describe_faults(report.proof, Dim));
         // GCOVR_EXCL_STOP
     }
     report.quality = clock.time("quality", [&] { return measure_quality<Dim>(mesh); });

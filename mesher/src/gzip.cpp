@@ -25,6 +25,7 @@ public:
 
     z_stream* operator->() { return &stream_; }
     [[nodiscard]] int step() { return inflate(&stream_, Z_NO_FLUSH); }
+    [[nodiscard]] int begin_anew() { return inflateReset(&stream_); }
 
 private:
     z_stream stream_{};
@@ -58,6 +59,10 @@ std::string unpack_gzip(std::string_view bytes, std::size_t most, const std::str
         inflation->avail_out = static_cast<uInt>(result.size() - before);
         state = inflation.step();
         result.resize(result.size() - inflation->avail_out);
+        // What is packed in blocks, as by bgzip, is one gzip file behind the other.
+        if (state == Z_STREAM_END && is_gzip(bytes.substr(taken - inflation->avail_in))) {
+            state = inflation.begin_anew();
+        }
     }
     if (state == Z_BUF_ERROR) {
         throw Error(name + ": ends too soon: what is packed in it goes on");

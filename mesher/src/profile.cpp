@@ -89,6 +89,9 @@ double path_length(const std::vector<Layer<4>>& layers) {
 
 double slice_on_path(const std::vector<Layer<4>>& layers) {
     const double length = path_length(layers);
+    if (length == 0) {
+        return 0;
+    }
     double passed = 0;
     for (std::size_t l = 1; l < layers.size(); ++l) {
         const double from = layers[l - 1].offset[3];

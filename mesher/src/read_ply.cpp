@@ -5,6 +5,7 @@
 #include <pent/error.h>
 #include <pent/ply_elements.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <optional>
@@ -155,6 +156,20 @@ void read_list(const PlyProperty& property,
     }
 }
 
+// A missing z is 0, for surfaces in the plane.
+void require_coordinates(const PlyElement& vertex, const Values& values) {
+    for (const char* name : {"x", "y"}) {
+        const bool is_there = std::any_of(vertex.properties.begin(), vertex.properties.end(),
+                                          [&](const PlyProperty& property) {
+                                              return property.name == name && !property.count_type;
+                                          });
+        if (!is_there) {
+            values.fail("the header gives element vertex no property " + std::string(name)
+                        + "; expected x, y and z");
+        }
+    }
+}
+
 void read_vertex(const PlyElement& element,
                  Values& values,
                  std::int64_t longest,
@@ -208,6 +223,9 @@ TriangleSoup read_ply(const std::filesystem::path& path) {
     for (const PlyElement& element : header.elements) {
         if (element.name == "tristrips") {
             values.fail("triangles in strips; expected faces: write the file with faces");
+        }
+        if (element.name == "vertex") {
+            require_coordinates(element, values);
         }
         for (std::uint64_t row = 0; row < element.count; ++row) {
             if (element.name == "vertex") {

@@ -3,10 +3,12 @@
 #include "size_limits.h"
 
 #include <pent/error.h>
+#include <pent/formatted.h>
 #include <pent/mesher/repair.h>
 
 #include <Eigen/Eigenvalues>
 
+#include <cmath>
 #include <string>
 #include <utility>
 
@@ -78,7 +80,8 @@ Repaired try_light(const Surface& surface,
         return mended(surface, closed, Repair::Light, report);
     }
     if (left.duplicate.count > 0) {
-        // A triangle that hung on the surface by an edge was closed by its other side: both go.
+        // A triangle that hung on the surface by an edge or a point was closed by its other side:
+        // both go.
         Repaired without_fins =
             mended(surface, drop_useless_triangles(closed), Repair::Light, report);
         if (is_usable(without_fins.after)) {
@@ -100,6 +103,25 @@ Repaired try_light(const Surface& surface,
                   Repair::Light, report);
 }
 
+// CGAL wants each point of a wrap at the offset from the surface to 1% of it; far from the origin
+// there may be no such point, and what it says then is of no help.
+Surface wrap_outside(const Surface& closed, double alpha, double offset, const StepLimits& limits) {
+    try {
+        return isolated("the wrap", limits, [&] { return wrap(closed, alpha, offset); });
+    } catch (const Error&) {
+        const double farthest = closed.points.cwiseAbs().maxCoeff();
+        const double spacing = std::nextafter(farthest, 2 * farthest) - farthest;
+        if (spacing <= 0.01 * offset) {
+            throw;
+        }
+        throw Error(
+            formatted("a wrap %.2g m around the surface cannot be made %.2g m from the"
+                      " origin, where coordinates are %.2g m apart; move the surface nearer"
+                      " to the origin",
+                      offset, farthest, spacing));
+    }
+}
+
 // Finer and finer, until the wrap is close enough to the surface without its holes: through a hole
 // that is left open a fine wrap would creep inside, and make a hollow shell of the body.
 Repaired try_wrap(const Surface& closed,
@@ -110,9 +132,7 @@ Repaired try_wrap(const Surface& closed,
     constexpr double kFinest = 1.0 / 400;
     for (double alpha = kCoarsest; alpha >= kFinest; alpha /= 2) {
         Repaired repaired =
-            mended(closed,
-                   isolated("the wrap", options.limits,
-                            [&] { return wrap(closed, alpha * size, alpha * size / 20); }),
+            mended(closed, wrap_outside(closed, alpha * size, alpha * size / 20, options.limits),
                    Repair::Wrap, report);
         if (is_usable(repaired.after) && repaired.distance <= options.wrap_distance * size) {
             return repaired;

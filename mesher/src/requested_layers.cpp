@@ -44,6 +44,11 @@ double slice_of(const ExtrusionRequest& request) {
 }
 
 int slabs_of_length(const ExtrusionRequest& request, double length, double edge) {
+    if (!request.profile.empty() && length == 0) {
+        throw Error(request.profile.string()
+                    + ": its layers have one middle, so that no number of layers along w suits"
+                      " them; list all of them in the file");
+    }
     return request.grade == 1 ? automatic_slabs(length, edge)
                               : graded_slabs(0.7 * edge / length, request.grade, slice_of(request));
 }

@@ -76,28 +76,28 @@ SurfaceFile weld(const Positions<3>& points, const Simplices<3>& triangles) {
     const std::vector<std::uint32_t> first = first_at_same_place(points);
     SurfaceFile file;
     file.points_in_file = points.cols();
-    std::vector<std::uint32_t> name(first.size(), kUnused);
+    std::vector<std::uint32_t> new_index(first.size(), kUnused);
     for (const std::uint32_t corner : triangles.reshaped()) {
-        name[first[corner]] = 0;
+        new_index[first[corner]] = 0;
     }
     std::uint32_t kept = 0;
     for (std::size_t i = 0; i < first.size(); ++i) {
         if (first[i] != i) {
             ++file.merged_points;
-        } else if (name[i] == kUnused) {
+        } else if (new_index[i] == kUnused) {
             ++file.unused_points;
         } else {
-            name[i] = kept++;
+            new_index[i] = kept++;
         }
     }
     file.surface.points.resize(3, kept);
     for (std::size_t i = 0; i < first.size(); ++i) {
-        if (first[i] == i && name[i] != kUnused) {
-            file.surface.points.col(name[i]) = points.col(static_cast<Eigen::Index>(i));
+        if (first[i] == i && new_index[i] != kUnused) {
+            file.surface.points.col(new_index[i]) = points.col(static_cast<Eigen::Index>(i));
         }
     }
     file.surface.triangles =
-        triangles.unaryExpr([&](std::uint32_t corner) { return name[first[corner]]; });
+        triangles.unaryExpr([&](std::uint32_t corner) { return new_index[first[corner]]; });
     return file;
 }
 

@@ -370,6 +370,9 @@ TEST(G4mf, IsRefusedWithWhatIsWrong) {
     pent::test::expect_contains(error_with(Pointer("/nodes/1/rotor"), {1, 0, 0, 0, 0, 0, 0}),
                                 {"node 1", "rotor"});
     pent::test::expect_contains(error_with(Pointer("/meshes/0/vertices"), 7), {"is no G4MF file"});
+    // Looked for before there is room for so many.
+    pent::test::expect_contains(error_with(Pointer("/bufferViews/1/buffer"), 1000000000000),
+                                {"is no G4MF file", "1000000000000 is out of range"});
     pent::test::expect_contains(error_as("a.g4tf", "{"), {"is no G4MF file"});
 }
 

@@ -202,6 +202,25 @@ TEST(ExtrusionFile, SaysWhatIsWrongInAFile) {
                     {"d.pent", "element tetrahedron has no order, which an extrusion needs"});
 }
 
+// A row of them would end anywhere, and the next one begin beyond the end of the file.
+TEST(ExtrusionFile, IsRefusedWhereALayerHasAList) {
+    const test::TempFolder folder;
+    static_cast<void>(write_extrusion<4>(folder / "a.pent", crooked<4>(4, false, false, true)));
+    std::string good = bytes_of(folder / "a.pent");
+    const std::size_t sum = good.find("comment header_crc32c");
+    good.erase(sum, good.find('\n', sum) - sum + 1);
+    for (const std::string property : {"property double xx\n", "property uchar reversed\n"}) {
+        const std::string list =
+            "property list uchar" + property.substr(std::string("property").size());
+        std::string bytes = good;
+        bytes.replace(bytes.find(property), property.size(), list);
+        std::ofstream(folder / "b.pent", std::ios::binary) << bytes;
+        expect_contains(error_of([&] { (void)read_mesh<4>(folder / "b.pent"); }),
+                        {"b.pent: header: element layer has the list property",
+                         "expected properties of fixed width"});
+    }
+}
+
 TEST(Extrude, MakesTheSameInParts) {
     for (const bool has_first_point : {false, true}) {
         for (const bool has_last_point : {false, true}) {

@@ -185,7 +185,24 @@ TEST(MakeBody, FollowsEdgeDirectionsFromAFile) {
     EXPECT_EQ(body.mesh.columns[body.mesh.cells(0, 0)], 3U);
     EXPECT_EQ(body.mesh.layers[body.mesh.cells(0, 0)], 0U);
     request.extrusion.edge_directions = folder / "around.txt";
-    test::expect_contains(message_for(request), {"1 triangle is a directed cycle: 0 -> 1 -> 2"});
+    test::expect_contains(message_for(request), {"around.txt: edge directions: 1 triangle is a"
+                                                 " directed cycle: 0 -> 1 -> 2"});
+}
+
+// Steps that know only a mesh cannot say which file it is of.
+TEST(MakeBody, NamesTheInputWhereAStepOnItsMeshFails) {
+    for (const Repair level : {Repair::Light, Repair::Auto}) {  // Auto: its wrap fails, too
+        BodyRequest request = request_for("dirty/d_cube.off");
+        request.repair.repair = level;
+        request.tetrahedra.generator = Generator::TetGen;
+        request.tetrahedra.worker = "no_such_worker";
+        test::expect_contains(message_for(request), {"dirty/d_cube.off: ", "no_such_worker"});
+    }
+    BodyRequest request;
+    request.input = BallShape{2, 1};
+    request.extrusion.layers = 1;
+    request.translation = Eigen::Vector4d(1e20, 0, 0, 0);
+    test::expect_contains(message_for(request), {"the shape: the mesh that was made: "});
 }
 
 TEST(MakeBody, MakesShapesWithoutAFile) {

@@ -1,4 +1,5 @@
 #include "layer_places.h"
+#include "requested_layers.h"
 #include "shapes.h"
 #include "support/kuhn_box.h"
 #include "support/messages.h"
@@ -134,11 +135,25 @@ TEST(Relayer, RefusesWhatHasNoWayOrNothingBetweenItsEnds) {
                           {"one layer between two points"});
 }
 
+TEST(RequestedLayers, HasNoNumberOfThemOnAPathOfNoLength) {
+    const test::TempFolder folder;
+    test::write_file(folder / "turn.txt", "0 1\n0 1 0 0 0 0 0 20 0 0 0\n");
+    ExtrusionRequest request;
+    request.profile = folder / "turn.txt";
+    request.grade = 2;
+    test::expect_contains(test::error_of([&] {
+                              static_cast<void>(requested_layers<4>(request, {1, 1, 0.1}));
+                          }),
+                          {"turn.txt: its layers have one middle", "list all of them"});
+    EXPECT_THROW(static_cast<void>(suitable_slabs(request, 1, 0)), Error);
+}
+
 TEST(SliceOnPath, IsWhereTheWayCrossesZeroOrTheNearerEnd) {
     EXPECT_EQ(slice_on_path(read_text("-1 1\n3 1\n")), 0.25);
     EXPECT_EQ(slice_on_path(read_text("1 1\n3 1\n")), 0);
     EXPECT_EQ(slice_on_path(read_text("-3 1\n-1 1\n")), 1);
     EXPECT_EQ(slice_on_path(read_text("-2 1\n0 1\n2 1\n")), 0.5);
+    EXPECT_EQ(slice_on_path(read_text("0 1\n0 1 0 0 0 0 0 20 0 0 0\n")), 0);  // it only turns
 }
 
 }  // namespace

@@ -79,8 +79,12 @@ TEST(ReadImage, TakesSlopeAndInterceptOffsetAndGzip) {
     header.scl_inter = -3;
     header.vox_offset = 360;
     const std::string bytes = nifti_header(header) + std::string(8, 'x') + samples<float>(16);
-    for (const Image& image : {read_as("a.nii", bytes), read_as("a.nii.gz", test::packed(bytes)),
-                               read_as("a.nii", test::packed(bytes))}) {
+    for (const Image& image :
+         {read_as("a.nii", bytes), read_as("a.nii.gz", test::packed(bytes)),
+          read_as("a.nii", test::packed(bytes)),
+          read_as("a.nii.gz", test::packed(bytes.substr(0, 370)) + test::packed(bytes.substr(370))
+                                  + test::packed("")),
+          read_as("a.nii.gz", test::packed(bytes) + "something else")}) {
         EXPECT_EQ(image.values.front(), -3);
         EXPECT_EQ(image.values.back(), 27);
     }

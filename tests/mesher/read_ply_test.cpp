@@ -123,6 +123,18 @@ TEST(ReadPly, NamesTheLineOfAHeaderThatIsWrong) {
     test::expect_contains(header("end_header\n", ""), {"a.ply", "the file ends within the header"});
 }
 
+TEST(ReadPly, NeedsXAndYOfVertices) {
+    const std::string whole = kHeader + kPoints + "3 0 1 2\n";
+    for (const std::string name : {"x", "y"}) {
+        test::expect_contains(
+            message_for(replaced(whole, "property float " + name, "property float other")),
+            {"a.ply: line 9: the header gives element vertex no property " + name,
+             "expected x, y and z"});
+    }
+    EXPECT_EQ(read_bytes(replaced(whole, "property float z", "property float nz")).surface.points,
+              read_bytes(whole).surface.points);
+}
+
 // MeshLab writes quality as it comes, which may be no number, and texture as lists.
 TEST(ReadPly, PassesOverWhatNothingIsMadeOf) {
     const std::string whole = kHeader + kPoints + "3 0 1 2\n";

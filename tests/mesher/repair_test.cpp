@@ -100,6 +100,15 @@ TEST(Repair, TakesFinsOff) {
     }
 }
 
+// Nothing is wrong with it there as long as its own coordinates are whole numbers.
+TEST(Repair, SaysThatAWrapNeedsFinerCoordinatesThanThereAreFarFromTheOrigin) {
+    const Surface far = test::box_surface({-1e15, 0, 0}, {-1e15 + 1, 1, 1});
+    EXPECT_EQ(repair(far).used, Repair::None);
+    test::expect_contains(message_for(far, Repair::Wrap),
+                          {"cannot be made 1e+15 m from the origin",
+                           "coordinates are 0.12 m apart; move the surface nearer"});
+}
+
 TEST(Repair, UnitesBodiesThatCross) {
     // Two unit cubes that share an eighth, and one off to the side, turned inside out.
     Surface third = test::box_surface({5, 5, 5}, {6, 6, 6});

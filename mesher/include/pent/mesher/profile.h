@@ -28,7 +28,8 @@ namespace pent::mesher {
 [[nodiscard]] double path_length(const std::vector<Layer<4>>& layers);
 
 /// Where the polyline through the offsets of the layers first crosses w = 0, as a share of its
-/// length; where it does not, the end that is nearer to w = 0.
+/// length; where it does not, the end that is nearer to w = 0. 0 for layers that only turn or
+/// scale, whose polyline has no length.
 [[nodiscard]] double slice_on_path(const std::vector<Layer<4>>& layers);
 
 /// Resamples the layers of a body: at these places along the polyline through their offsets, each
