@@ -23,7 +23,7 @@ struct StepLimit {
 ///
 /// Penalty:
 /// - A vertex and another body make one contact, with the nearest facet: at the signed distance of
-///   the vertex to that body's surface, at any depth. Inside is where its winding number is above 0.
+///   the vertex to that body's surface, at any depth. Inside: winding number above 0.
 /// - An edge and a ridge make a contact where their closest points are inside both. A crossed pair
 ///   is known by the outward normals: the force goes on while the crossing is shallower than
 ///   `distance`. Pairs of which only one faces the other make no contact.
